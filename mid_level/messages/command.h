@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the operator's word to the propellers: mission, plan, helm, thrust.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "mid_level/base/time.h"
+#include "mid_level/messages/fields.h"
+#include "mid_level/messages/path.h"
+
+namespace lodesman {
+
+enum class OperatorOrder : std::uint8_t { kNone, kStart, kAbort };
+
+// Written by the command socket (or by the program that starts a simulation); read by the
+// planner task, where the mission lives.
+struct OperatorCommand {
+  OperatorOrder order = OperatorOrder::kNone;
+
+  static constexpr auto fields() noexcept {
+    return std::tuple{field("order", &OperatorCommand::order)};
+  }
+};
+
+enum class MissionState : std::uint8_t { kIdle, kUnderWay, kReached, kAborted };
+[[nodiscard]] const char* to_string(MissionState state) noexcept;
+
+// Written by the planner task at every step; read by the controller, the world (its scenario's
+// time starts with the mission) and displays.
+struct MissionStatus {
+  MissionState state = MissionState::kIdle;
+  Time started{};                // [ns] of the last start; 0 before one
+  Time ended{};                  // [ns] when it was reached or aborted
+  std::uint32_t goal_index = 0;  // [-] of the goal made for: mission waypoints first, goal last
+  double goal_x_m = 0.0;         // [m] [world] that goal
+  double goal_y_m = 0.0;         // [m] [world]
+
+  static constexpr auto fields() noexcept {
+    using M = MissionStatus;
+    return std::tuple{field("state", &M::state),       field("started", &M::started),
+                      field("ended", &M::ended),       field("goal_index", &M::goal_index),
+                      field("goal_x_m", &M::goal_x_m), field("goal_y_m", &M::goal_y_m)};
+  }
+};
+
+inline constexpr std::size_t kMaxWaypoints = 256;
+
+struct Waypoint {
+  double x_m = 0.0;  // [m] [world]
+  double y_m = 0.0;  // [m] [world]
+
+  static constexpr auto fields() noexcept {
+    return std::tuple{field("x_m", &Waypoint::x_m), field("y_m", &Waypoint::y_m)};
+  }
+};
+
+enum class WaypointSource : std::uint8_t {
+  kNone,      // no waypoints: there never was a path, or the last one is too old to follow
+  kCurrent,   // of the path just found
+  kPrevious,  // no path found: the previous waypoints stand (step 12.4.1)
+};
+[[nodiscard]] const char* to_string(WaypointSource source) noexcept;
+
+// One pass through Fig. 1. Written by the planner task once an answer of PathFinder (or a request
+// that got none); read by the controller and displays.
+struct Plan {
+  std::uint64_t id = 0;     // [-] PathRequest::id
+  std::uint64_t frame = 0;  // [-] SonarObstacles::frame
+  Time captured{};          // [ns] of the frame; the pose below is the vehicle's at that time
+  double pose_x_m = 0.0;    // [m] [world]
+  double pose_y_m = 0.0;    // [m] [world]
+  double pose_heading_rad = 0.0;  // [rad] [-pi, pi]
+  double goal_x_m = 0.0;          // [m] [world]
+  double goal_y_m = 0.0;          // [m] [world]
+  PathReason reason = PathReason::kNoPath;
+  WaypointSource source = WaypointSource::kNone;
+  std::uint64_t path_id = 0;  // [-] the plan whose path the waypoints belong to
+  Time path_captured{};       // [ns] capture time of that plan's frame: how old the path is
+  std::uint32_t waypoint_count = 0;  // [-] [0, kMaxWaypoints]
+  std::array<Waypoint, kMaxWaypoints> waypoints{};
+
+  [[nodiscard]] std::size_t used_bytes() const noexcept {
+    return offsetof(Plan, waypoints) +
+           std::min<std::size_t>(waypoint_count, kMaxWaypoints) * sizeof(Waypoint);
+  }
+
+  static constexpr auto fields() noexcept {
+    using P = Plan;
+    return std::tuple{field("id", &P::id),
+                      field("frame", &P::frame),
+                      field("captured", &P::captured),
+                      field("pose_x_m", &P::pose_x_m),
+                      field("pose_y_m", &P::pose_y_m),
+                      field("pose_heading_rad", &P::pose_heading_rad),
+                      field("goal_x_m", &P::goal_x_m),
+                      field("goal_y_m", &P::goal_y_m),
+                      field("reason", &P::reason),
+                      field("source", &P::source),
+                      field("path_id", &P::path_id),
+                      field("path_captured", &P::path_captured),
+                      field("waypoint_count", &P::waypoint_count),
+                      field("waypoints", &P::waypoints, &P::waypoint_count)};
+  }
+};
+
+enum class HelmReason : std::uint8_t {
+  kTracking,       // steering for a waypoint
+  kNotUnderWay,    // idle, reached or aborted: neutral
+  kNoWaypoints,    // under way without a plan to follow: neutral
+  kStaleState,     // the estimate is too old: neutral
+  kStaleAttitude,  // the heading is too old: neutral
+  kStaleMission,   // the mission has fallen silent: neutral
+};
+[[nodiscard]] const char* to_string(HelmReason reason) noexcept;
+
+// Written by the controller task at 20 Hz; read by the thruster task.
+struct HelmCommand {
+  HelmReason reason = HelmReason::kNotUnderWay;
+  std::int32_t surge_ref = 0;        // [-] [-100, 100] eq. 7; 0 unless tracking
+  std::int32_t head_ref = 0;         // [-] [-100, 100] eq. 9; positive turns right
+  std::uint64_t plan_id = 0;         // [-] the plan steered by
+  Time plan_captured{};              // [ns] capture time of that plan's sonar frame
+  std::uint32_t waypoint_index = 0;  // [-] within that plan
+  double waypoint_x_m = 0.0;         // [m] [world]
+  double waypoint_y_m = 0.0;         // [m] [world]
+
+  static constexpr auto fields() noexcept {
+    using C = HelmCommand;
+    return std::tuple{field("reason", &C::reason),
+                      field("surge_ref", &C::surge_ref),
+                      field("head_ref", &C::head_ref),
+                      field("plan_id", &C::plan_id),
+                      field("plan_captured", &C::plan_captured),
+                      field("waypoint_index", &C::waypoint_index),
+                      field("waypoint_x_m", &C::waypoint_x_m),
+                      field("waypoint_y_m", &C::waypoint_y_m)};
+  }
+};
+
+enum class ThrustReason : std::uint8_t {
+  kCommanded,     // the thrusters run as the helm says
+  kNoCommand,     // the helm has not spoken yet: neutral
+  kStaleCommand,  // the helm has fallen silent: neutral
+  kDeviceFailed,  // the thruster box does not take commands
+};
+[[nodiscard]] const char* to_string(ThrustReason reason) noexcept;
+
+// Written by the thruster task at 20 Hz, after the box took the command; read by the estimator
+// and displays.
+struct ThrustApplied {
+  ThrustReason reason = ThrustReason::kNoCommand;
+  std::uint8_t left = 128;   // [-] [0, 255] 127 and 128 stop
+  std::uint8_t right = 128;  // [-] [0, 255]
+  std::int32_t surge_ref = 0;         // [-] [-100, 100] as applied; 0 when neutral
+  std::int32_t head_ref = 0;          // [-] [-100, 100]
+  std::uint64_t command_sequence = 0;  // [-] of the HelmCommand applied
+  Time command_stamp{};                // [ns] when that command was published
+  std::uint64_t plan_id = 0;           // [-] of that command
+  Time plan_captured{};                // [ns] of that command
+
+  static constexpr auto fields() noexcept {
+    using T = ThrustApplied;
+    return std::tuple{field("reason", &T::reason),
+                      field("left", &T::left),
+                      field("right", &T::right),
+                      field("surge_ref", &T::surge_ref),
+                      field("head_ref", &T::head_ref),
+                      field("command_sequence", &T::command_sequence),
+                      field("command_stamp", &T::command_stamp),
+                      field("plan_id", &T::plan_id),
+                      field("plan_captured", &T::plan_captured)};
+  }
+};
+
+}  // namespace lodesman

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the vehicle is and which way it points: what the sensors say, and what is made of it.
+#pragma once
+
+#include <cstdint>
+
+#include "mid_level/base/time.h"
+#include "mid_level/messages/fields.h"
+
+namespace lodesman {
+
+// Written by the AHRS task at 50 Hz; read by the estimator and the controller.
+struct Attitude {
+  Time measured{};              // [ns] when the sensor measured it
+  double heading_rad = 0.0;     // [rad] [-pi, pi] true, clockwise from north
+  double yaw_rate_rad_s = 0.0;  // [rad/s] clockwise positive
+
+  static constexpr auto fields() noexcept {
+    using A = Attitude;
+    return std::tuple{field("measured", &A::measured), field("heading_rad", &A::heading_rad),
+                      field("yaw_rate_rad_s", &A::yaw_rate_rad_s)};
+  }
+};
+
+// Written by the position task at the receiver's rate (1-10 Hz); read by the estimator.
+struct PositionFix {
+  Time measured{};             // [ns] when the receiver fixed it
+  double latitude_deg = 0.0;   // [deg] [-90, 90] WGS-84
+  double longitude_deg = 0.0;  // [deg] [-180, 180]
+  double sigma_m = 0.0;        // [m] one standard deviation, horizontal
+
+  static constexpr auto fields() noexcept {
+    using P = PositionFix;
+    return std::tuple{field("measured", &P::measured), field("latitude_deg", &P::latitude_deg),
+                      field("longitude_deg", &P::longitude_deg), field("sigma_m", &P::sigma_m)};
+  }
+};
+
+// The estimate that everything steers by. Written by the estimator task at 20 Hz, and only while
+// its inputs are fresh; read by DeltaT (known obstacles), the planner, the controller.
+struct VehicleState {
+  Time valid_at{};           // [ns] the time this pose belongs to
+  double x_m = 0.0;          // [m] [world] east
+  double y_m = 0.0;          // [m] [world] north
+  double heading_rad = 0.0;  // [rad] [-pi, pi] clockwise from north
+  double surge_m_s = 0.0;    // [m/s] speed ahead through the water, estimated
+
+  static constexpr auto fields() noexcept {
+    using V = VehicleState;
+    return std::tuple{field("valid_at", &V::valid_at), field("x_m", &V::x_m),
+                      field("y_m", &V::y_m), field("heading_rad", &V::heading_rad),
+                      field("surge_m_s", &V::surge_m_s)};
+  }
+};
+
+// The simulated truth. Written by the world task at every physics step; read by the estimator's
+// `truth` source and by the run-directory writer, and by nobody else (a test sees to it).
+struct WorldTruth {
+  double scenario_time_s = 0.0;  // [s] since the mission's start; 0 before it
+  double x_m = 0.0;              // [m] [world]
+  double y_m = 0.0;              // [m] [world]
+  double heading_rad = 0.0;      // [rad] [-pi, pi]
+  double surge_m_s = 0.0;        // [m/s] over ground, along the heading
+  double sway_m_s = 0.0;         // [m/s] over ground, to starboard
+  double yaw_rate_rad_s = 0.0;   // [rad/s] clockwise positive
+  // [m] signed; +infinity without obstacles
+  double inoffensive_distance_m = 0.0;
+  double hull_clearance_m = 0.0;  // [m] signed, from the oriented rectangle; +infinity likewise
+
+  static constexpr auto fields() noexcept {
+    using W = WorldTruth;
+    return std::tuple{field("scenario_time_s", &W::scenario_time_s),
+                      field("x_m", &W::x_m),
+                      field("y_m", &W::y_m),
+                      field("heading_rad", &W::heading_rad),
+                      field("surge_m_s", &W::surge_m_s),
+                      field("sway_m_s", &W::sway_m_s),
+                      field("yaw_rate_rad_s", &W::yaw_rate_rad_s),
+                      field("inoffensive_distance_m", &W::inoffensive_distance_m),
+                      field("hull_clearance_m", &W::hull_clearance_m)};
+  }
+};
+
+}  // namespace lodesman
