@@ -74,8 +74,8 @@ void for_each_channel(Board& board, Visit visit) {
   visit(ChannelInfo{"thrust_applied", Role::kLow, "thruster", 0.5}, board.thrust_applied);
   for (std::size_t i = 0; i < kTaskCount; ++i) {
     const auto task = static_cast<TaskId>(i);
-    const bool high = task == TaskId::kEstimator || task == TaskId::kPlanner ||
-                      task == TaskId::kController;
+    const bool high =
+        task == TaskId::kEstimator || task == TaskId::kPlanner || task == TaskId::kController;
     visit(ChannelInfo{to_string(task), high ? Role::kHigh : Role::kLow, to_string(task), 0.0},
           board.task_health[i]);
   }

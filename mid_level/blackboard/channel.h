@@ -24,7 +24,7 @@ namespace lodesman {
 
 template <class T>
 concept Wire = std::is_trivially_copyable_v<T> && std::is_standard_layout_v<T> &&
-               std::is_default_constructible_v<T> && HasFields<T>;
+    std::is_default_constructible_v<T> && HasFields<T>;
 
 // A published value. `sequence` counts the publications of a channel from 1 on.
 template <class T>
@@ -187,8 +187,7 @@ class Reader {
 
   // The value with this sequence number; nullptr when the ring no longer (or not yet) has it.
   [[nodiscard]] const Stamped<T>* at(std::uint64_t sequence) noexcept {
-    return sequence != 0 && (held_->sequence == sequence || take(sequence)) ? held_.get()
-                                                                            : nullptr;
+    return sequence != 0 && (held_->sequence == sequence || take(sequence)) ? held_.get() : nullptr;
   }
 
   [[nodiscard]] std::uint64_t newest_sequence() const noexcept {

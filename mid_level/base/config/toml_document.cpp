@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mid_level/base/config/toml_document.h"
 
+#include <toml++/toml.h>
+
 #include <cmath>
 #include <fstream>
 #include <set>
 #include <sstream>
-#include <toml++/toml.h>
 
 namespace lodesman {
 
@@ -74,7 +75,8 @@ namespace {
 void overlay_table(toml::table& base, toml::table& over, const std::string& path,
                    const TomlDocument::Impl& document) {
   for (auto&& [key, node] : over) {
-    const std::string here = path.empty() ? std::string{key.str()} : path + "." + std::string{key.str()};
+    const std::string here =
+        path.empty() ? std::string{key.str()} : path + "." + std::string{key.str()};
     toml::node* old = base.get(key.str());
     if (old == nullptr) {
       refuse_node(node, document, here, "unknown key");
@@ -292,8 +294,8 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key, std::size_t max_c
   }
   const auto* array = node->as_array();
   if (array == nullptr || array->size() > max_count) {
-    refuse(key, "must be at most " + std::to_string(max_count) + " [[" + std::string{key} +
-                    "]] tables");
+    refuse(key,
+           "must be at most " + std::to_string(max_count) + " [[" + std::string{key} + "]] tables");
   }
   for (std::size_t i = 0; i < array->size(); ++i) {
     const auto* table = (*array)[i].as_table();
