@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 
 #include "mid_level/blackboard/channel.h"
@@ -30,6 +31,20 @@ enum class TaskId : std::uint8_t {
 inline constexpr std::size_t kTaskCount = 9;
 [[nodiscard]] const char* to_string(TaskId task) noexcept;
 
+// How old a value may be before its readers act as if its writer were dead.
+namespace max_age {
+using std::chrono::milliseconds;
+inline constexpr Duration kWorldTruth = milliseconds{500};
+inline constexpr Duration kAttitude = milliseconds{300};
+inline constexpr Duration kPositionFix = milliseconds{3000};
+inline constexpr Duration kVehicleState = milliseconds{400};
+inline constexpr Duration kSonarFrame = milliseconds{2000};
+inline constexpr Duration kMissionStatus = milliseconds{400};
+inline constexpr Duration kHelmCommand = milliseconds{300};
+inline constexpr Duration kThrustApplied = milliseconds{500};
+inline constexpr Duration kNoLimit{};
+}  // namespace max_age
+
 struct Blackboard {
   Channel<WorldTruth, 256> world_truth;
   Channel<Attitude, 64> attitude;
@@ -52,31 +67,38 @@ struct ChannelInfo {
   const char* name;
   Role writer;
   const char* writer_task;
-  double max_age_s;  // older than this, its readers act as if it were silent; 0: no limit
+  Duration max_age;  // zero: no limit
 };
 
 // Calls visit(ChannelInfo, channel) for every channel, in the order of the struct.
 template <class Board, class Visit>
 void for_each_channel(Board& board, Visit visit) {
-  visit(ChannelInfo{"world_truth", Role::kLow, "world", 0.5}, board.world_truth);
-  visit(ChannelInfo{"attitude", Role::kLow, "ahrs", 0.5}, board.attitude);
-  visit(ChannelInfo{"position_fix", Role::kLow, "position", 3.0}, board.position_fix);
-  visit(ChannelInfo{"vehicle_state", Role::kHigh, "estimator", 0.5}, board.vehicle_state);
-  visit(ChannelInfo{"sonar_ping", Role::kLow, "delta_t", 2.0}, board.sonar_ping);
-  visit(ChannelInfo{"sonar_obstacles", Role::kLow, "delta_t", 2.0}, board.sonar_obstacles);
-  visit(ChannelInfo{"path_request", Role::kHigh, "planner", 0.0}, board.path_request);
-  visit(ChannelInfo{"sonar_path", Role::kLow, "path_finder", 0.0}, board.sonar_path);
-  visit(ChannelInfo{"plan", Role::kHigh, "planner", 0.0}, board.plan);
-  visit(ChannelInfo{"operator_command", Role::kHigh, "command socket", 0.0},
+  visit(ChannelInfo{"world_truth", Role::kLow, "world", max_age::kWorldTruth}, board.world_truth);
+  visit(ChannelInfo{"attitude", Role::kLow, "ahrs", max_age::kAttitude}, board.attitude);
+  visit(ChannelInfo{"position_fix", Role::kLow, "position", max_age::kPositionFix},
+        board.position_fix);
+  visit(ChannelInfo{"vehicle_state", Role::kHigh, "estimator", max_age::kVehicleState},
+        board.vehicle_state);
+  visit(ChannelInfo{"sonar_ping", Role::kLow, "delta_t", max_age::kSonarFrame}, board.sonar_ping);
+  visit(ChannelInfo{"sonar_obstacles", Role::kLow, "delta_t", max_age::kSonarFrame},
+        board.sonar_obstacles);
+  visit(ChannelInfo{"path_request", Role::kHigh, "planner", max_age::kNoLimit}, board.path_request);
+  visit(ChannelInfo{"sonar_path", Role::kLow, "path_finder", max_age::kNoLimit}, board.sonar_path);
+  visit(ChannelInfo{"plan", Role::kHigh, "planner", max_age::kNoLimit}, board.plan);
+  visit(ChannelInfo{"operator_command", Role::kHigh, "command socket", max_age::kNoLimit},
         board.operator_command);
-  visit(ChannelInfo{"mission_status", Role::kHigh, "planner", 0.5}, board.mission_status);
-  visit(ChannelInfo{"helm_command", Role::kHigh, "controller", 0.4}, board.helm_command);
-  visit(ChannelInfo{"thrust_applied", Role::kLow, "thruster", 0.5}, board.thrust_applied);
+  visit(ChannelInfo{"mission_status", Role::kHigh, "planner", max_age::kMissionStatus},
+        board.mission_status);
+  visit(ChannelInfo{"helm_command", Role::kHigh, "controller", max_age::kHelmCommand},
+        board.helm_command);
+  visit(ChannelInfo{"thrust_applied", Role::kLow, "thruster", max_age::kThrustApplied},
+        board.thrust_applied);
   for (std::size_t i = 0; i < kTaskCount; ++i) {
     const auto task = static_cast<TaskId>(i);
     const bool high =
         task == TaskId::kEstimator || task == TaskId::kPlanner || task == TaskId::kController;
-    visit(ChannelInfo{to_string(task), high ? Role::kHigh : Role::kLow, to_string(task), 0.0},
+    visit(ChannelInfo{to_string(task), high ? Role::kHigh : Role::kLow, to_string(task),
+                      max_age::kNoLimit},
           board.task_health[i]);
   }
 }
