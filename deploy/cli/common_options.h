@@ -16,7 +16,7 @@ inline constexpr int kExitCollision = 3;
 inline constexpr int kExitFault = 4;
 
 struct CommonOptions {
-  bool json = false;                  // exactly one JSON document (or JSON lines) on stdout
+  bool json = false;  // exactly one JSON document (or JSON lines) on stdout
   bool quiet = false;
   std::vector<std::string> config_files;  // overlays, in order
   std::vector<std::string> sets;          // section.key=value

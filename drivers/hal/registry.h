@@ -31,8 +31,8 @@ class DeviceRegistry {
     const auto colon = address.find(':');
     const auto found = factories_.find(address.substr(0, colon));
     if (colon == std::string::npos || found == factories_.end()) {
-      throw StartupError("devices." + contract_ + ": \"" + address + "\" is no address; known: " +
-                         known_schemes());
+      throw StartupError("devices." + contract_ + ": \"" + address +
+                         "\" is no address; known: " + known_schemes());
     }
     return found->second(std::string_view{address}.substr(colon + 1));
   }

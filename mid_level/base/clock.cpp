@@ -7,8 +7,8 @@
 namespace lodesman {
 
 Time SteadyClock::now() const noexcept {
-  return Time{std::chrono::duration_cast<Duration>(
-      std::chrono::steady_clock::now().time_since_epoch())};
+  return Time{
+      std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch())};
 }
 
 void SimClock::advance_to(Time t) noexcept {

@@ -67,18 +67,18 @@ enum class WaypointSource : std::uint8_t {
 // One pass through Fig. 1. Written by the planner task once an answer of PathFinder (or a request
 // that got none); read by the controller and displays.
 struct Plan {
-  std::uint64_t id = 0;     // [-] PathRequest::id
-  std::uint64_t frame = 0;  // [-] SonarObstacles::frame
-  Time captured{};          // [ns] of the frame; the pose below is the vehicle's at that time
-  double pose_x_m = 0.0;    // [m] [world]
-  double pose_y_m = 0.0;    // [m] [world]
+  std::uint64_t id = 0;           // [-] PathRequest::id
+  std::uint64_t frame = 0;        // [-] SonarObstacles::frame
+  Time captured{};                // [ns] of the frame; the pose below is the vehicle's at that time
+  double pose_x_m = 0.0;          // [m] [world]
+  double pose_y_m = 0.0;          // [m] [world]
   double pose_heading_rad = 0.0;  // [rad] [-pi, pi]
   double goal_x_m = 0.0;          // [m] [world]
   double goal_y_m = 0.0;          // [m] [world]
   PathReason reason = PathReason::kNoPath;
   WaypointSource source = WaypointSource::kNone;
-  std::uint64_t path_id = 0;  // [-] the plan whose path the waypoints belong to
-  Time path_captured{};       // [ns] capture time of that plan's frame: how old the path is
+  std::uint64_t path_id = 0;         // [-] the plan whose path the waypoints belong to
+  Time path_captured{};              // [ns] capture time of that plan's frame: how old the path is
   std::uint32_t waypoint_count = 0;  // [-] [0, kMaxWaypoints]
   std::array<Waypoint, kMaxWaypoints> waypoints{};
 
@@ -152,10 +152,10 @@ enum class ThrustReason : std::uint8_t {
 // and displays.
 struct ThrustApplied {
   ThrustReason reason = ThrustReason::kNoCommand;
-  std::uint8_t left = 128;   // [-] [0, 255] 127 and 128 stop
-  std::uint8_t right = 128;  // [-] [0, 255]
-  std::int32_t surge_ref = 0;         // [-] [-100, 100] as applied; 0 when neutral
-  std::int32_t head_ref = 0;          // [-] [-100, 100]
+  std::uint8_t left = 128;             // [-] [0, 255] 127 and 128 stop
+  std::uint8_t right = 128;            // [-] [0, 255]
+  std::int32_t surge_ref = 0;          // [-] [-100, 100] as applied; 0 when neutral
+  std::int32_t head_ref = 0;           // [-] [-100, 100]
   std::uint64_t command_sequence = 0;  // [-] of the HelmCommand applied
   Time command_stamp{};                // [ns] when that command was published
   std::uint64_t plan_id = 0;           // [-] of that command

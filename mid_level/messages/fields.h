@@ -53,7 +53,9 @@ template <class M, class T>
 }
 
 template <class M>
-concept HasFields = requires { M::fields(); };
+concept HasFields = requires {
+  M::fields();
+};
 
 template <class M>
 concept HasUsedBytes = requires(const M& m) {
@@ -91,7 +93,8 @@ void visit_elements(Sink& sink, const char* name, const T& array, std::size_t co
 template <class Sink, class M>
 void visit_message(Sink& sink, const M& message) {
   const auto visit_one = [&](const auto& f) {
-    if constexpr (requires { f.measured; } && requires { Sink::kSkipMeasured; }) {
+    if constexpr (
+        requires { f.measured; } && requires { Sink::kSkipMeasured; }) {
       return;
     } else if constexpr (requires { f.count; }) {
       visit_elements(sink, f.name, message.*(f.member),

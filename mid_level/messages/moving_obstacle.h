@@ -10,11 +10,11 @@
 namespace lodesman {
 
 struct MovingObstacle {
-  Obstacle at_start;  // [world] as it lies at scenario time 0
+  Obstacle at_start;            // [world] as it lies at scenario time 0
   double velocity_x_m_s = 0.0;  // [m/s] [world]
   double velocity_y_m_s = 0.0;  // [m/s] [world]
-  double stops_at_s = std::numeric_limits<double>::infinity();  // [s] scenario time; rests then
-  double appears_at_s = 0.0;                                      // [s] exists from here ...
+  double stops_at_s = std::numeric_limits<double>::infinity();     // [s] scenario time; rests then
+  double appears_at_s = 0.0;                                       // [s] exists from here ...
   double vanishes_at_s = std::numeric_limits<double>::infinity();  // [s] ... up to before here
 
   [[nodiscard]] bool exists(double scenario_time_s) const noexcept {

@@ -17,12 +17,12 @@ inline constexpr std::size_t kMaxBins = 1000;
 
 // One ping. Written by the DeltaT task at the sonar's rate (10 Hz); read by recorders and displays.
 struct SonarPing {
-  std::uint64_t number = 0;    // [-] counts up by one a ping of this sonar
-  Time captured{};             // [ns] when the ping was sent
-  double range_m = 0.0;        // [m] (0, 300] of the far edge of the last bin
-  double sector_rad = 0.0;     // [rad] (0, pi] the beams share it evenly, left to right
-  std::uint32_t beams = 0;     // [-] [1, kMaxBeams]
-  std::uint32_t bins = 0;      // [-] [1, kMaxBins]
+  std::uint64_t number = 0;      // [-] counts up by one a ping of this sonar
+  Time captured{};               // [ns] when the ping was sent
+  double range_m = 0.0;          // [m] (0, 300] of the far edge of the last bin
+  double sector_rad = 0.0;       // [rad] (0, pi] the beams share it evenly, left to right
+  std::uint32_t beams = 0;       // [-] [1, kMaxBeams]
+  std::uint32_t bins = 0;        // [-] [1, kMaxBins]
   std::uint32_t echo_count = 0;  // [-] beams x bins
   // [-] [0, 255] echo strength, beam by beam: echo[beam * bins + bin], bin 0 nearest
   std::array<std::uint8_t, kMaxBeams * kMaxBins> echo{};
@@ -41,22 +41,18 @@ struct SonarPing {
 
   static constexpr auto fields() noexcept {
     using P = SonarPing;
-    return std::tuple{field("number", &P::number),
-                      field("captured", &P::captured),
-                      field("range_m", &P::range_m),
-                      field("sector_rad", &P::sector_rad),
-                      field("beams", &P::beams),
-                      field("bins", &P::bins),
-                      field("echo_count", &P::echo_count),
-                      field("echo", &P::echo, &P::echo_count)};
+    return std::tuple{field("number", &P::number),         field("captured", &P::captured),
+                      field("range_m", &P::range_m),       field("sector_rad", &P::sector_rad),
+                      field("beams", &P::beams),           field("bins", &P::bins),
+                      field("echo_count", &P::echo_count), field("echo", &P::echo, &P::echo_count)};
   }
 };
 
 // The obstacles in one sonar frame, in the vehicle frame at its capture time. Written by the
 // DeltaT task once a ping; read by PathFinder, the planner and displays.
 struct SonarObstacles {
-  std::uint64_t frame = 0;  // [-] number of the ping they were found in, or stand for
-  Time captured{};          // [ns] the vehicle's pose at this time is the frame they are given in
+  std::uint64_t frame = 0;    // [-] number of the ping they were found in, or stand for
+  Time captured{};            // [ns] the vehicle's pose at this time is the frame they are given in
   std::uint32_t dropped = 0;  // [-] obstacles that found no room (the farthest ones)
   std::uint32_t count = 0;    // [-] [0, kMaxObstacles]
   std::array<Obstacle, kMaxObstacles> obstacles{};

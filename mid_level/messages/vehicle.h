@@ -47,9 +47,8 @@ struct VehicleState {
 
   static constexpr auto fields() noexcept {
     using V = VehicleState;
-    return std::tuple{field("valid_at", &V::valid_at), field("x_m", &V::x_m),
-                      field("y_m", &V::y_m), field("heading_rad", &V::heading_rad),
-                      field("surge_m_s", &V::surge_m_s)};
+    return std::tuple{field("valid_at", &V::valid_at), field("x_m", &V::x_m), field("y_m", &V::y_m),
+                      field("heading_rad", &V::heading_rad), field("surge_m_s", &V::surge_m_s)};
   }
 };
 

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// The blackboard: one struct of typed channels, all that passes between the two processes (the
+// paper's mid level). The same struct lies in shared memory, or on the heap in lock-step.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+
+#include "mid_level/blackboard/channel.h"
+#include "mid_level/messages/command.h"
+#include "mid_level/messages/health.h"
+#include "mid_level/messages/path.h"
+#include "mid_level/messages/sonar.h"
+#include "mid_level/messages/vehicle.h"
+
+namespace lodesman {
+
+// Every task of both processes, in lock-step order of precedence.
+enum class TaskId : std::uint8_t {
+  kWorld,
+  kAhrs,
+  kPosition,
+  kEstimator,
+  kDeltaT,
+  kPathFinder,
+  kPlanner,
+  kController,
+  kThruster,
+};
+inline constexpr std::size_t kTaskCount = 9;
+[[nodiscard]] const char* to_string(TaskId task) noexcept;
+
+// How old a value may be before its readers act as if its writer were dead.
+namespace max_age {
+using std::chrono::milliseconds;
+inline constexpr Duration kWorldTruth = milliseconds{500};
+inline constexpr Duration kAttitude = milliseconds{300};
+inline constexpr Duration kPositionFix = milliseconds{3000};
+inline constexpr Duration kVehicleState = milliseconds{400};
+inline constexpr Duration kSonarFrame = milliseconds{2000};
+inline constexpr Duration kMissionStatus = milliseconds{400};
+inline constexpr Duration kHelmCommand = milliseconds{300};
+inline constexpr Duration kThrustApplied = milliseconds{500};
+inline constexpr Duration kNoLimit{};
+}  // namespace max_age
+
+struct Blackboard {
+  Channel<WorldTruth, 256> world_truth;
+  Channel<Attitude, 64> attitude;
+  Channel<PositionFix, 16> position_fix;
+  Channel<VehicleState, 64> vehicle_state;
+  Channel<SonarPing, 4> sonar_ping;
+  Channel<SonarObstacles, 16> sonar_obstacles;
+  Channel<PathRequest, 16> path_request;
+  Channel<SonarPath, 8> sonar_path;
+  Channel<Plan, 16> plan;
+  Channel<OperatorCommand, 8> operator_command;
+  Channel<MissionStatus, 64> mission_status;
+  Channel<HelmCommand, 64> helm_command;
+  Channel<ThrustApplied, 64> thrust_applied;
+  std::array<Channel<TaskHealth, 2>, kTaskCount> task_health;
+};
+
+// What is worth knowing of a channel besides its type: one row a channel, for displays and docs.
+struct ChannelInfo {
+  const char* name;
+  Role writer;
+  const char* writer_task;
+  Duration max_age;  // zero: no limit
+};
+
+// Calls visit(ChannelInfo, channel) for every channel, in the order of the struct.
+template <class Board, class Visit>
+void for_each_channel(Board& board, Visit visit) {
+  visit(ChannelInfo{"world_truth", Role::kLow, "world", max_age::kWorldTruth}, board.world_truth);
+  visit(ChannelInfo{"attitude", Role::kLow, "ahrs", max_age::kAttitude}, board.attitude);
+  visit(ChannelInfo{"position_fix", Role::kLow, "position", max_age::kPositionFix},
+        board.position_fix);
+  visit(ChannelInfo{"vehicle_state", Role::kHigh, "estimator", max_age::kVehicleState},
+        board.vehicle_state);
+  visit(ChannelInfo{"sonar_ping", Role::kLow, "delta_t", max_age::kSonarFrame}, board.sonar_ping);
+  visit(ChannelInfo{"sonar_obstacles", Role::kLow, "delta_t", max_age::kSonarFrame},
+        board.sonar_obstacles);
+  visit(ChannelInfo{"path_request", Role::kHigh, "planner", max_age::kNoLimit}, board.path_request);
+  visit(ChannelInfo{"sonar_path", Role::kLow, "path_finder", max_age::kNoLimit}, board.sonar_path);
+  visit(ChannelInfo{"plan", Role::kHigh, "planner", max_age::kNoLimit}, board.plan);
+  visit(ChannelInfo{"operator_command", Role::kHigh, "command socket", max_age::kNoLimit},
+        board.operator_command);
+  visit(ChannelInfo{"mission_status", Role::kHigh, "planner", max_age::kMissionStatus},
+        board.mission_status);
+  visit(ChannelInfo{"helm_command", Role::kHigh, "controller", max_age::kHelmCommand},
+        board.helm_command);
+  visit(ChannelInfo{"thrust_applied", Role::kLow, "thruster", max_age::kThrustApplied},
+        board.thrust_applied);
+  for (std::size_t i = 0; i < kTaskCount; ++i) {
+    const auto task = static_cast<TaskId>(i);
+    const bool high =
+        task == TaskId::kEstimator || task == TaskId::kPlanner || task == TaskId::kController;
+    visit(ChannelInfo{to_string(task), high ? Role::kHigh : Role::kLow, to_string(task),
+                      max_age::kNoLimit},
+          board.task_health[i]);
+  }
+}
+
+}  // namespace lodesman

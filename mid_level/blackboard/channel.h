@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// A channel: one writer, many readers, a ring of the last N whole values. There is no lock and no
+// pointer in it, so it may lie in shared memory, and a writer that is killed in the middle of a
+// publication leaves the last whole value in place. publish() and the Reader's calls are wait-free
+// or bounded and allocate nothing; a Writer or Reader belongs to one thread.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "mid_level/base/check.h"
+#include "mid_level/base/startup_error.h"
+#include "mid_level/base/time.h"
+#include "mid_level/messages/fields.h"
+
+namespace lodesman {
+
+template <class T>
+concept Wire = std::is_trivially_copyable_v<T> && std::is_standard_layout_v<T> &&
+    std::is_default_constructible_v<T> && HasFields<T>;
+
+// A published value. `sequence` counts the publications of a channel from 1 on.
+template <class T>
+struct Stamped {
+  T value{};
+  Time stamp{};
+  std::uint64_t sequence = 0;
+};
+
+// Which program writes a channel; stored in the channel as its writer's claim.
+enum class Role : std::uint32_t { kNobody = 0, kLow = 1, kHigh = 2, kOperator = 3 };
+
+// One place of a ring. The value lies in 64-bit atomic words: the version is odd while the words
+// change, every word is stored with release and loaded with acquire, so that whoever sees a new
+// word also sees the odd version before it (the thread sanitizer follows this; it does not model
+// stand-alone fences).
+template <Wire T>
+struct ChannelSlot {
+  static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
+  std::atomic<std::uint64_t> version{0};  // 2 s - 1 while value s is written, 2 s once it is whole
+  std::atomic<std::int64_t> stamp_ns{0};
+  std::atomic<std::uint64_t> bytes{0};  // how much of the value was written
+  std::array<std::atomic<std::uint64_t>, kWords> words{};
+};
+
+template <Wire T>
+struct ChannelHead {
+  alignas(64) std::atomic<std::uint64_t> newest{0};  // sequence of the last whole value
+  std::atomic<std::uint32_t> writer{0};              // the Role that claimed it
+};
+
+template <Wire T, std::size_t N>
+class Channel {
+  static_assert(N >= 2, "a ring needs a whole value beside the one being written");
+
+ public:
+  using Value = T;
+  static constexpr std::size_t kSlots = N;
+
+  ChannelHead<T> head;
+  std::array<ChannelSlot<T>, N> slots;
+
+  // Frees the claim of a program that is known to be dead.
+  void release_claim_of(Role role) noexcept {
+    auto held = static_cast<std::uint32_t>(role);
+    head.writer.compare_exchange_strong(held, 0, std::memory_order_acq_rel);
+  }
+};
+
+// The one writer of a channel: made once, before the tasks run.
+template <Wire T>
+class Writer {
+ public:
+  // Throws StartupError when the channel has a writer already.
+  template <std::size_t N>
+  Writer(Channel<T, N>& channel, Role role, const char* name)
+      : head_{&channel.head}, slots_{channel.slots.data()}, count_{N} {
+    std::uint32_t nobody = 0;
+    if (!head_->writer.compare_exchange_strong(nobody, static_cast<std::uint32_t>(role),
+                                               std::memory_order_acq_rel)) {
+      head_ = nullptr;
+      throw StartupError(std::string{"channel "} + name + " already has a writer");
+    }
+    sequence_ = head_->newest.load(std::memory_order_acquire);
+  }
+  Writer(Writer&& other) noexcept
+      : head_{std::exchange(other.head_, nullptr)},
+        slots_{other.slots_},
+        count_{other.count_},
+        sequence_{other.sequence_} {}
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+  Writer& operator=(Writer&&) = delete;
+  ~Writer() {
+    if (head_ != nullptr) {
+      head_->writer.store(0, std::memory_order_release);
+    }
+  }
+
+  void publish(const T& value, Time now) noexcept {
+    const std::uint64_t sequence = ++sequence_;
+    ChannelSlot<T>& slot = slots_[sequence % count_];
+    const std::size_t bytes = used_bytes(value);
+    LODESMAN_CHECK(bytes <= sizeof(T));
+    slot.version.store(2 * sequence - 1, std::memory_order_relaxed);
+    slot.stamp_ns.store(now.time_since_epoch().count(), std::memory_order_release);
+    slot.bytes.store(bytes, std::memory_order_release);
+    const auto* from = reinterpret_cast<const std::byte*>(&value);
+    std::size_t word = 0;
+    for (; (word + 1) * 8 <= bytes; ++word) {
+      std::uint64_t bits;
+      std::memcpy(&bits, from + word * 8, 8);
+      slot.words[word].store(bits, std::memory_order_release);
+    }
+    if (word * 8 < bytes) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, from + word * 8, bytes - word * 8);
+      slot.words[word].store(bits, std::memory_order_release);
+    }
+    slot.version.store(2 * sequence, std::memory_order_release);
+    head_->newest.store(sequence, std::memory_order_release);
+  }
+
+  [[nodiscard]] std::uint64_t sequence() const noexcept { return sequence_; }
+
+ private:
+  ChannelHead<T>* head_;
+  ChannelSlot<T>* slots_;
+  std::size_t count_;
+  std::uint64_t sequence_ = 0;
+};
+
+// A reader with a copy of its own: what it hands out stays valid until its next call.
+template <Wire T>
+class Reader {
+ public:
+  template <std::size_t N>
+  explicit Reader(const Channel<T, N>& channel)
+      : head_{&channel.head},
+        slots_{channel.slots.data()},
+        count_{N},
+        held_{std::make_unique<Stamped<T>>()},
+        spare_{std::make_unique<Stamped<T>>()} {}
+
+  // The newest whole value; nullptr as long as there was none.
+  [[nodiscard]] const Stamped<T>* latest() noexcept {
+    for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+      const std::uint64_t newest = newest_sequence();
+      if (newest == 0 || newest == held_->sequence || take(newest)) {
+        break;
+      }
+    }
+    return held_->sequence == 0 ? nullptr : held_.get();
+  }
+
+  // The newest value if it is no older than max_age; nullptr when it is stale.
+  [[nodiscard]] const Stamped<T>* fresh(Time now, Duration max_age) noexcept {
+    const Stamped<T>* newest = latest();
+    return newest != nullptr && now - newest->stamp <= max_age ? newest : nullptr;
+  }
+
+  // The oldest value after the one held that the ring still has; nullptr when there is none yet.
+  // Values that were overwritten before they were read are counted in missed().
+  [[nodiscard]] const Stamped<T>* next() noexcept {
+    for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+      const std::uint64_t newest = newest_sequence();
+      if (newest <= held_->sequence) {
+        return nullptr;
+      }
+      const std::uint64_t oldest = newest >= count_ ? newest - count_ + 1 : 1;
+      const std::uint64_t wanted = held_->sequence + 1 > oldest ? held_->sequence + 1 : oldest;
+      const std::uint64_t held = held_->sequence;
+      if (take(wanted)) {
+        missed_ += wanted - held - 1;
+        return held_.get();
+      }
+    }
+    return nullptr;
+  }
+
+  // The value with this sequence number; nullptr when the ring no longer (or not yet) has it.
+  [[nodiscard]] const Stamped<T>* at(std::uint64_t sequence) noexcept {
+    return sequence != 0 && (held_->sequence == sequence || take(sequence)) ? held_.get() : nullptr;
+  }
+
+  [[nodiscard]] std::uint64_t newest_sequence() const noexcept {
+    return head_->newest.load(std::memory_order_acquire);
+  }
+  [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
+
+ private:
+  static constexpr int kMaxAttempts = 64;
+
+  // Copies value `sequence` into held_; leaves held_ as it was when that value is not whole.
+  [[nodiscard]] bool take(std::uint64_t sequence) noexcept {
+    const ChannelSlot<T>& slot = slots_[sequence % count_];
+    if (slot.version.load(std::memory_order_acquire) != 2 * sequence) {
+      return false;
+    }
+    const std::int64_t stamp_ns = slot.stamp_ns.load(std::memory_order_acquire);
+    const std::uint64_t bytes = slot.bytes.load(std::memory_order_acquire);
+    if (bytes > sizeof(T)) {
+      return false;
+    }
+    auto* to = reinterpret_cast<std::byte*>(&spare_->value);
+    std::size_t word = 0;
+    for (; (word + 1) * 8 <= bytes; ++word) {
+      const std::uint64_t bits = slot.words[word].load(std::memory_order_acquire);
+      std::memcpy(to + word * 8, &bits, 8);
+    }
+    if (word * 8 < bytes) {
+      const std::uint64_t bits = slot.words[word].load(std::memory_order_acquire);
+      std::memcpy(to + word * 8, &bits, bytes - word * 8);
+    }
+    if (slot.version.load(std::memory_order_relaxed) != 2 * sequence) {
+      return false;
+    }
+    spare_->stamp = Time{Duration{stamp_ns}};
+    spare_->sequence = sequence;
+    std::swap(held_, spare_);
+    return true;
+  }
+
+  const ChannelHead<T>* head_;
+  const ChannelSlot<T>* slots_;
+  std::size_t count_;
+  std::unique_ptr<Stamped<T>> held_;
+  std::unique_ptr<Stamped<T>> spare_;
+  std::uint64_t missed_ = 0;
+};
+
+}  // namespace lodesman
