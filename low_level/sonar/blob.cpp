@@ -77,7 +77,8 @@ double enclosing_scale(const PolarGrid& grid, std::span<const std::uint32_t> cel
     }
     ++bucket;
   }
-  const double quantile = limit * static_cast<double>(bucket + 1) / static_cast<double>(kBuckets - 1);
+  const double quantile =
+      limit * static_cast<double>(bucket + 1) / static_cast<double>(kBuckets - 1);
   return std::sqrt(std::max(1.0, quantile));
 }
 

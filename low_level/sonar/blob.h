@@ -14,9 +14,9 @@ namespace lodesman {
 // Where the bins of one ping lie in the vehicle frame. Filled once a ping, so that no bin needs a
 // sine of its own.
 struct PolarGrid {
-  std::uint32_t bins = 0;     // [-] of a beam: cell = beam * bins + bin
-  double bin_depth_m = 0.0;   // [m] of one bin along its beam
-  double beam_width_rad = 0.0;  // [rad] from one beam to the next
+  std::uint32_t bins = 0;                  // [-] of a beam: cell = beam * bins + bin
+  double bin_depth_m = 0.0;                // [m] of one bin along its beam
+  double beam_width_rad = 0.0;             // [rad] from one beam to the next
   std::array<double, kMaxBeams> sine{};    // [-] of each beam's bearing
   std::array<double, kMaxBeams> cosine{};  // [-]
 

@@ -22,8 +22,9 @@ double distance_to_segment_m(const Vertex& a, const Vertex& b) noexcept {
   const double dx = b.x_m - a.x_m;
   const double dy = b.y_m - a.y_m;
   const double length_squared = dx * dx + dy * dy;
-  const double part =
-      length_squared > 0.0 ? std::clamp(-(a.x_m * dx + a.y_m * dy) / length_squared, 0.0, 1.0) : 0.0;
+  const double part = length_squared > 0.0
+                          ? std::clamp(-(a.x_m * dx + a.y_m * dy) / length_squared, 0.0, 1.0)
+                          : 0.0;
   return std::hypot(a.x_m + part * dx, a.y_m + part * dy);
 }
 
@@ -74,8 +75,7 @@ Obstacle to_vehicle(const VehiclePose& pose, const Obstacle& in_world) noexcept 
   }
   seen.vertex_count = std::min<std::uint32_t>(in_world.vertex_count, kMaxVertices);
   for (std::uint32_t i = 0; i < seen.vertex_count; ++i) {
-    const VehiclePoint p =
-        pose.to_vehicle({{in_world.vertices[i].x_m, in_world.vertices[i].y_m}});
+    const VehiclePoint p = pose.to_vehicle({{in_world.vertices[i].x_m, in_world.vertices[i].y_m}});
     seen.vertices[i] = {p.xy_m.x(), p.xy_m.y()};
   }
   return seen;

@@ -39,9 +39,8 @@ Bytes read_bytes(const std::filesystem::path& file) {
 
 bool starts_with(const Bytes& bytes, std::string_view magic) {
   return bytes.size() >= magic.size() &&
-         std::equal(magic.begin(), magic.end(), bytes.begin(), [](char a, std::uint8_t b) {
-           return static_cast<std::uint8_t>(a) == b;
-         });
+         std::equal(magic.begin(), magic.end(), bytes.begin(),
+                    [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
 // The decoders fill what a truncated file lacks with grey, which is no echo anybody measured.
@@ -52,6 +51,54 @@ bool is_whole(const Bytes& bytes) {
     return std::search(bytes.begin(), bytes.end(), kPngEnd.begin(), kPngEnd.end()) != bytes.end();
   }
   return std::search(bytes.begin(), bytes.end(), kJpegEnd.begin(), kJpegEnd.end()) != bytes.end();
+}
+
+// A number of a PGM's header, after white space and comments.
+std::uint32_t pgm_number(const Bytes& bytes, std::size_t& at, const std::filesystem::path& file) {
+  constexpr std::size_t kMaxDigits = 6;
+  const auto is_space = [](std::uint8_t c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
+  while (at < bytes.size() && (is_space(bytes[at]) || bytes[at] == '#')) {
+    if (bytes[at] == '#') {
+      at = static_cast<std::size_t>(
+          std::find(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end(), '\n') -
+          bytes.begin());
+    } else {
+      ++at;
+    }
+  }
+  std::uint32_t number = 0;
+  std::size_t digits = 0;
+  while (at < bytes.size() && bytes[at] >= '0' && bytes[at] <= '9' && digits < kMaxDigits) {
+    number = 10 * number + (bytes[at++] - std::uint32_t{'0'});
+    ++digits;
+  }
+  if (digits == 0 || number == 0) {
+    refuse(file, "the PGM header is damaged");
+  }
+  return number;
+}
+
+// Read here, because OpenCV prints its own complaints about a damaged one.
+GreyImage decode_pgm(const Bytes& bytes, const std::filesystem::path& file) {
+  std::size_t at = 2;  // after "P5"
+  GreyImage image;
+  image.columns = pgm_number(bytes, at, file);
+  image.rows = pgm_number(bytes, at, file);
+  const std::uint32_t white = pgm_number(bytes, at, file);
+  if (white > 255) {
+    refuse(file, "must have 8 bits a pixel");
+  }
+  ++at;  // one white space
+  const std::size_t size = std::size_t{image.columns} * image.rows;
+  if (at > bytes.size() || bytes.size() - at < size) {
+    refuse(file, "the image is truncated");
+  }
+  image.pixels.reserve(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint32_t value = std::min<std::uint32_t>(bytes[at + i], white);
+    image.pixels.push_back(static_cast<std::uint8_t>(value * 255 / white));
+  }
+  return image;
 }
 
 double pixel(const GreyImage& image, double column, double row) noexcept {
@@ -75,11 +122,13 @@ double pixel(const GreyImage& image, double column, double row) noexcept {
 
 GreyImage read_grey_image(const std::filesystem::path& file) {
   const Bytes bytes = read_bytes(file);
-  const bool pgm = starts_with(bytes, "P5") || starts_with(bytes, "P2");
-  if (!pgm && !starts_with(bytes, "\x89PNG") && !starts_with(bytes, "\xFF\xD8")) {
-    refuse(file, "not a PGM, PNG or JPEG image");
+  if (starts_with(bytes, "P5")) {
+    return decode_pgm(bytes, file);
   }
-  if (!pgm && !is_whole(bytes)) {
+  if (!starts_with(bytes, "\x89PNG") && !starts_with(bytes, "\xFF\xD8")) {
+    refuse(file, "not a binary PGM, PNG or JPEG image");
+  }
+  if (!is_whole(bytes)) {
     refuse(file, "the image is truncated");
   }
   cv::Mat decoded;
@@ -98,8 +147,8 @@ GreyImage read_grey_image(const std::filesystem::path& file) {
   if (decoded.depth() != CV_8U) {
     refuse(file, "must have 8 bits a pixel");
   }
-  GreyImage image{static_cast<std::uint32_t>(decoded.cols), static_cast<std::uint32_t>(decoded.rows),
-                  {}};
+  GreyImage image{
+      static_cast<std::uint32_t>(decoded.cols), static_cast<std::uint32_t>(decoded.rows), {}};
   image.pixels.reserve(decoded.total());
   for (int row = 0; row < decoded.rows; ++row) {
     image.pixels.insert(image.pixels.end(), decoded.ptr(row), decoded.ptr(row) + decoded.cols);
@@ -140,8 +189,7 @@ void fan_to_ping(const GreyImage& image, const FanGeometry& fan, SonarPing& out)
     const double c = std::cos(out.bearing_rad(beam));
     for (std::uint32_t bin = 0; bin < out.bins; ++bin) {
       const double r = fan.radius_px * (bin + 0.5) / out.bins;
-      const double echo =
-          pixel(image, fan.apex_column_px + r * s, fan.apex_row_px + down * r * c);
+      const double echo = pixel(image, fan.apex_column_px + r * s, fan.apex_row_px + down * r * c);
       out.echo[beam * out.bins + bin] = static_cast<std::uint8_t>(std::lround(echo));
     }
   }

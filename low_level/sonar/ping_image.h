@@ -13,9 +13,9 @@
 namespace lodesman {
 
 struct GreyImage {
-  std::uint32_t columns = 0;          // [px]
-  std::uint32_t rows = 0;             // [px]
-  std::vector<std::uint8_t> pixels;   // row by row, from the top
+  std::uint32_t columns = 0;         // [px]
+  std::uint32_t rows = 0;            // [px]
+  std::vector<std::uint8_t> pixels;  // row by row, from the top
 };
 
 // An 8-bit PGM, PNG or JPEG. Throws StartupError `file:1: image: reason`.
@@ -29,7 +29,7 @@ void polar_to_ping(const GreyImage& image, const std::filesystem::path& file, So
 struct FanGeometry {
   double apex_column_px = 0.0;
   double apex_row_px = 0.0;
-  double radius_px = 0.0;   // [px] > 0
+  double radius_px = 0.0;     // [px] > 0
   bool range_upwards = true;  // apex at the bottom; else at the top, and left stays left
 };
 

@@ -70,7 +70,7 @@ void Segmenter::segment(const SonarPing& ping, SonarObstacles& out) noexcept {
       if (bright_[cell] != 0) {
         const std::size_t size = grow_blob(ping, cell);
         if (size >= options_.min_blob_bins) {
-          add_blob(ping, size);
+          add_blob(size);
         }
       }
     }
@@ -174,7 +174,7 @@ bool Segmenter::must_split(const BlobEllipse& ellipse) const noexcept {
 
 // One ellipse round a long or bent wall would cover free water, so the blob is halved across its
 // longer axis until each piece is short: several ellipses along the wall, as in Fig. 9b.
-void Segmenter::add_blob(const SonarPing& ping, std::size_t size) noexcept {
+void Segmenter::add_blob(std::size_t size) noexcept {
   struct Piece {
     std::span<std::uint32_t> cells;
     std::uint32_t splits;
@@ -193,28 +193,30 @@ void Segmenter::add_blob(const SonarPing& ping, std::size_t size) noexcept {
         continue;
       }
     }
-    keep_nearest(ping, ellipse, piece.cells);
+    std::uint8_t peak = 0;
+    for (const std::uint32_t cell : piece.cells) {
+      peak = std::max(peak, echo_[cell]);
+    }
+    // A piece without an echo of its own is but the smoothing's fringe of the piece beside it.
+    if (piece.splits == 0 || peak >= options_.threshold) {
+      keep_nearest({ellipse, static_cast<double>(peak)});
+    }
   }
 }
 
-void Segmenter::keep_nearest(const SonarPing& ping, const BlobEllipse& ellipse,
-                             std::span<const std::uint32_t> cells) noexcept {
+void Segmenter::keep_nearest(const Found& found) noexcept {
   const auto nearer = [](const Found& a, const Found& b) {
     return a.ellipse.nearest_m < b.ellipse.nearest_m;
   };
   if (found_count_ == kMaxObstacles) {
     ++dropped_;
-    if (ellipse.nearest_m >= found_[0].ellipse.nearest_m) {
+    if (!nearer(found, found_[0])) {
       return;
     }
     std::pop_heap(found_.begin(), found_.end(), nearer);
     --found_count_;
   }
-  std::uint8_t peak = 0;
-  for (const std::uint32_t cell : cells) {
-    peak = std::max(peak, ping.echo[cell]);
-  }
-  found_[found_count_++] = {ellipse, static_cast<double>(peak)};
+  found_[found_count_++] = found;
   std::push_heap(found_.begin(), found_.begin() + found_count_, nearer);
 }
 

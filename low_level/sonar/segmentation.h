@@ -17,8 +17,8 @@ inline constexpr std::uint32_t kMaxJoin = 8;
 
 // Every value comes from the configuration; the ranges are checked there.
 struct SegmentationOptions {
-  double threshold;            // [-] (0, 255] smoothed echoes from here on are bright
-  double min_range_m;          // [m] >= 0; the head's own ring-down lies nearer
+  double threshold;             // [-] (0, 255] smoothed echoes from here on are bright
+  double min_range_m;           // [m] >= 0; the head's own ring-down lies nearer
   std::uint32_t min_blob_bins;  // [-] >= 1; smaller blobs are short outliers
   // Bright bins this far apart belong to one blob: 1 and 1 are the eight neighbours.
   std::uint32_t join_beams;      // [-] [1, kMaxJoin]
@@ -60,17 +60,16 @@ class Segmenter {
   void replace_stripe(const SonarPing& ping, std::uint32_t first, std::uint32_t end) noexcept;
   void mark_bright(const SonarPing& ping) noexcept;
   [[nodiscard]] std::size_t grow_blob(const SonarPing& ping, std::uint32_t seed) noexcept;
-  void add_blob(const SonarPing& ping, std::size_t size) noexcept;
+  void add_blob(std::size_t size) noexcept;
   [[nodiscard]] bool must_split(const BlobEllipse& ellipse) const noexcept;
-  void keep_nearest(const SonarPing& ping, const BlobEllipse& ellipse,
-                    std::span<const std::uint32_t> cells) noexcept;
+  void keep_nearest(const Found& found) noexcept;
   void write(SonarObstacles& out) noexcept;
 
   SegmentationOptions options_;
   PolarGrid grid_;
-  std::vector<std::uint8_t> echo_;     // the ping without its stripes
-  std::vector<std::uint8_t> bright_;   // 1: bright and in no blob yet
-  std::vector<std::uint32_t> cells_;   // of the blob at hand; also the queue it grows by
+  std::vector<std::uint8_t> echo_;            // the ping without its stripes
+  std::vector<std::uint8_t> bright_;          // 1: bright and in no blob yet
+  std::vector<std::uint32_t> cells_;          // of the blob at hand; also the queue it grows by
   std::array<Found, kMaxObstacles> found_{};  // a heap, the farthest first
   std::uint32_t found_count_ = 0;
   std::uint32_t dropped_ = 0;

@@ -21,11 +21,11 @@ const cv::Scalar kOutside{34, 22, 14};
 const cv::Scalar kWater{92, 56, 24};
 const cv::Scalar kRing{150, 112, 78};
 const cv::Scalar kText{235, 228, 220};
-const cv::Scalar kZone{168, 238, 178};      // light green: the brightest area
+const cv::Scalar kZone{168, 238, 178};  // light green: the brightest area
 const cv::Scalar kZoneEdge{225, 255, 230};
-const cv::Scalar kObstacle{44, 36, 208};    // red: dark inside a white edge
+const cv::Scalar kObstacle{44, 36, 208};  // red: dark inside a white edge
 const cv::Scalar kObstacleEdge{255, 255, 255};
-const cv::Scalar kPath{40, 225, 255};       // yellow on a black casing
+const cv::Scalar kPath{40, 225, 255};  // yellow on a black casing
 const cv::Scalar kBlack{0, 0, 0};
 
 constexpr int kShift = 4;  // OpenCV draws in sixteenths of a pixel
@@ -69,7 +69,7 @@ std::array<cv::Vec3b, 256> echo_shades() {
   const cv::Vec3d brown{40, 105, 165};
   const cv::Vec3d pale{170, 240, 255};
   for (std::size_t i = 0; i < shades.size(); ++i) {
-    const double strength = std::sqrt(static_cast<double>(i) / 255.0);  // faint echoes show too
+    const double strength = std::pow(static_cast<double>(i) / 255.0, 0.7);  // faint ones show too
     const cv::Vec3d shade = strength < 0.5 ? dark + (brown - dark) * (2.0 * strength)
                                            : brown + (pale - brown) * (2.0 * strength - 1.0);
     shades[i] = cv::Vec3b{shade};
@@ -88,14 +88,13 @@ void draw_echoes(cv::Mat& image, const cv::Mat& fan, const SonarView& view, cons
       if (fan.at<std::uint8_t>(row, column) == 0) {
         continue;
       }
-      const VehiclePoint p = view.to_vehicle(
-          {static_cast<std::int16_t>(column), static_cast<std::int16_t>(row)});
+      const VehiclePoint p =
+          view.to_vehicle({static_cast<std::int16_t>(column), static_cast<std::int16_t>(row)});
       const double bin = p.xy_m.norm() / ping.range_m * ping.bins;
-      const double beam =
-          (std::atan2(p.xy_m.x(), p.xy_m.y()) / ping.sector_rad + 0.5) * ping.beams;
+      const double beam = (std::atan2(p.xy_m.x(), p.xy_m.y()) / ping.sector_rad + 0.5) * ping.beams;
       if (beam >= 0.0 && beam < ping.beams && bin < ping.bins) {
-        const std::uint32_t cell = static_cast<std::uint32_t>(beam) * ping.bins +
-                                   static_cast<std::uint32_t>(bin);
+        const std::uint32_t cell =
+            static_cast<std::uint32_t>(beam) * ping.bins + static_cast<std::uint32_t>(bin);
         image.at<cv::Vec3b>(row, column) = shades[ping.echo[cell]];
       }
     }
@@ -155,9 +154,8 @@ bool is_drawable(const Obstacle& o) {
          std::isfinite(o.semi_axis_first_m) && std::isfinite(o.semi_axis_second_m) &&
          std::isfinite(o.angle_rad) && std::isfinite(o.protection_first_m) &&
          std::isfinite(o.protection_second_m) &&
-         std::all_of(o.vertices.begin(), o.vertices.end(), [](const Vertex& v) {
-           return std::isfinite(v.x_m) && std::isfinite(v.y_m);
-         });
+         std::all_of(o.vertices.begin(), o.vertices.end(),
+                     [](const Vertex& v) { return std::isfinite(v.x_m) && std::isfinite(v.y_m); });
 }
 
 // Fills a mask's area within the fan and draws its edge. Overlapping zones are one area, as they
@@ -185,7 +183,7 @@ void draw_obstacles(cv::Mat& image, const cv::Mat& fan, const SonarView& view,
     }
   }
   // Over echoes both are glass, so that one sees what was segmented.
-  paint(image, fan, zones, kZone, kZoneEdge, over_echoes ? 0.3 : 1.0);
+  paint(image, fan, zones, kZone, kZoneEdge, over_echoes ? 0.45 : 1.0);
   paint(image, fan, bodies, kObstacle, over_echoes ? kObstacle : kObstacleEdge,
         over_echoes ? 0.35 : 1.0);
 }
@@ -209,14 +207,13 @@ void draw_rings(cv::Mat& image, const SonarView& view, double range_m) {
     const int radius = static_cast<int>(std::lround(ring * step_m / view.metres_per_pixel()));
     cv::ellipse(image, apex, {radius, radius}, -90.0, -60.0, 60.0, kRing, 1, cv::LINE_AA);
   }
-  for (const double bearing_rad : {-kFanHalfRad, -kFanHalfRad / 2.0, 0.0, kFanHalfRad / 2.0,
-                                   kFanHalfRad}) {
-    const cv::Point end = whole_pixel(view, range_m * std::sin(bearing_rad),
-                                      range_m * std::cos(bearing_rad));
+  for (const double bearing_rad :
+       {-kFanHalfRad, -kFanHalfRad / 2.0, 0.0, kFanHalfRad / 2.0, kFanHalfRad}) {
+    const cv::Point end =
+        whole_pixel(view, range_m * std::sin(bearing_rad), range_m * std::cos(bearing_rad));
     cv::line(image, apex, end, kRing, 1, cv::LINE_AA);
   }
-  cv::ellipse(image, apex, {kFanRadiusPx, kFanRadiusPx}, -90.0, -60.0, 60.0, kRing, 1,
-              cv::LINE_AA);
+  cv::ellipse(image, apex, {kFanRadiusPx, kFanRadiusPx}, -90.0, -60.0, 60.0, kRing, 1, cv::LINE_AA);
 }
 
 // Beside the fan's right edge, where they hide nothing.
@@ -272,8 +269,11 @@ void mark_goal(cv::Mat& image, const SonarView& view, const ViewPicture& picture
   if (!in_view) {
     std::array<char, 48> label{};
     std::snprintf(label.data(), label.size(), "goal out of view: %.1f m", distance_m);
+    int baseline = 0;
+    const int width = cv::getTextSize(label.data(), kFont, 0.4, 1, &baseline).width;
+    const int left = at.x < kApexColumn ? at.x + 16 : at.x - 16 - width;  // towards the middle
     write_text(image, label.data(),
-               {std::clamp(at.x - 80, 4, kViewColumns - 190), std::clamp(at.y + 26, 44, 490)}, 0.4);
+               {std::clamp(left, 4, kViewColumns - width - 4), std::clamp(at.y + 4, 60, 480)}, 0.4);
   }
 }
 
