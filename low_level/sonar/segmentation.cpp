@@ -184,8 +184,10 @@ void Segmenter::add_blob(std::size_t size) noexcept {
   pieces[waiting++] = {std::span{cells_}.first(size), 0};
   while (waiting > 0) {
     const Piece piece = pieces[--waiting];
-    const BlobEllipse ellipse = fit_ellipse(grid_, piece.cells, options_.enclosed_fraction);
+    const BlobEllipse moments = moment_ellipse(grid_, piece.cells);
+    const BlobEllipse ellipse = enclose(grid_, piece.cells, moments, options_.enclosed_fraction);
     if (piece.splits < kMaxSplits && must_split(ellipse)) {
+      // One cell may be longer than the longest obstacle (few beams, far away): then no cut helps.
       const std::size_t behind = split_across(grid_, piece.cells, ellipse);
       if (behind > 0 && behind < piece.cells.size()) {
         pieces[waiting++] = {piece.cells.first(behind), piece.splits + 1};

@@ -257,6 +257,19 @@ TEST_CASE("segmentation: everything bright is a bounded amount of work and obsta
   CHECK(std::all_of(seen->obstacles.begin(), seen->obstacles.end(), is_sound));
 }
 
+TEST_CASE("segmentation: one bin longer than any obstacle may be is kept as it is",
+          "[low_level][sonar]") {
+  const auto ping = empty_ping(300.0, 2, 40);
+  ping->sector_rad = 3.0;
+  light(*ping, 255, [](double, double y) { return y > 0.0; });
+  SegmentationOptions options = shipped_options();
+  options.min_blob_bins = 1;
+  options.stripe_max_beams = 0;
+  const auto seen = segment(*ping, options);
+  CHECK(seen->count > 0);
+  CHECK(std::all_of(seen->obstacles.begin(), seen->obstacles.begin() + seen->count, is_sound));
+}
+
 TEST_CASE("segmentation: a ping that breaks its own ranges gives none", "[low_level][sonar]") {
   const auto ping = empty_ping();
   light_disc(*ping, 10.0, 0.0, 1.0);
