@@ -5,7 +5,7 @@ namespace lodesman {
 
 EstimatorTask::EstimatorTask(Blackboard& board, Role role, const EstimatorOptions& options)
     : options_{options},
-      local_frame_{options.origin_latitude_deg, options.origin_longitude_deg},
+      local_frame_{options.origin},
       dead_reckoning_{options.dead_reckoning, options.start},
       attitude_{board.attitude},
       position_fix_{board.position_fix},
@@ -52,7 +52,7 @@ bool EstimatorTask::update_position(Time now, Heading heading, int surge_ref) no
   }
   if (fix->sequence != used_fix_) {
     used_fix_ = fix->sequence;
-    const WorldPoint at = local_frame_.to_world(fix->value.latitude_deg, fix->value.longitude_deg);
+    const WorldPoint at = local_frame_.to_world({fix->value.latitude_deg, fix->value.longitude_deg});
     dead_reckoning_.correct(at, has_fix_ ? options_.gps_correction : 1.0);
     has_fix_ = true;
   }

@@ -16,8 +16,7 @@ struct EstimatorOptions {
   DeadReckoningOptions dead_reckoning;
   double gps_correction = 0.0;        // [-] (0, 1] share of the way to each fix
   WorldPoint start;                   // where dead reckoning starts
-  double origin_latitude_deg = 0.0;   // [deg] of the world frame's origin
-  double origin_longitude_deg = 0.0;  // [deg]
+  GeoPoint origin;  // of the world frame
 };
 
 class EstimatorTask final : public Task {

@@ -78,8 +78,8 @@ HighLevelOptions high_level_options(const TomlDocument& configuration, const Sce
   HighLevelOptions options = read_high_level_options(configuration.root());
   options.estimator.source = scenario.position.source;
   options.estimator.start = scenario.mission.start.p_WV;
-  options.estimator.origin_latitude_deg = scenario.environment.origin_latitude_deg;
-  options.estimator.origin_longitude_deg = scenario.environment.origin_longitude_deg;
+  options.estimator.origin = {scenario.environment.origin_latitude_deg,
+                              scenario.environment.origin_longitude_deg};
   options.planner.sonar_range_m = scenario.sonar.range_m;
   auto& mission = options.planner.mission;
   mission.goals = scenario.mission.waypoints;
