@@ -3,10 +3,9 @@
 // and allocates nothing once made; tests/conformance says the rest, for every implementation.
 #pragma once
 
-#include <cstdint>
-
 #include "drivers/hal/reading.h"
 #include "mid_level/base/time.h"
+#include "mid_level/messages/command.h"
 #include "mid_level/messages/sonar.h"
 #include "mid_level/messages/vehicle.h"
 
@@ -39,15 +38,6 @@ class PositionSensor : public Device {
  public:
   [[nodiscard]] virtual Reading<PositionFix> poll(Time now) noexcept = 0;
 };
-
-// The paper's thrust commands, eqs 13-14. 0-126 astern, 127 and 128 stop, 129-255 ahead.
-struct ThrustCommand {
-  std::uint8_t left = 128;   // [-] [0, 255]
-  std::uint8_t right = 128;  // [-] [0, 255]
-
-  friend bool operator==(const ThrustCommand&, const ThrustCommand&) = default;
-};
-inline constexpr ThrustCommand kNeutralThrust{};
 
 // Two thrusters behind one box. A command holds until the next one; the box stops both by itself
 // when none comes for its time-out.

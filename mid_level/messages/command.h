@@ -140,6 +140,15 @@ struct HelmCommand {
   }
 };
 
+// The paper's thrust commands, eqs 13-14. 0-126 astern, 127 and 128 stop, 129-255 ahead.
+struct ThrustCommand {
+  std::uint8_t left = 128;   // [-] [0, 255]
+  std::uint8_t right = 128;  // [-] [0, 255]
+
+  friend bool operator==(const ThrustCommand&, const ThrustCommand&) = default;
+};
+inline constexpr ThrustCommand kNeutralThrust{};
+
 enum class ThrustReason : std::uint8_t {
   kCommanded,     // the thrusters run as the helm says
   kNoCommand,     // the helm has not spoken yet: neutral

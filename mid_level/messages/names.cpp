@@ -12,7 +12,7 @@ const char* to_string(PathReason reason) noexcept {
     case PathReason::kGoalBlocked: return "goal_blocked";
     case PathReason::kGoalOutOfView: return "goal_out_of_view";
     case PathReason::kLimit: return "limit";
-    case PathReason::kFrameLost: return "frame_lost";
+    case PathReason::kNoFrame: return "no_frame";
   }
   return "unknown";
 }

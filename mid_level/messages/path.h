@@ -35,7 +35,7 @@ enum class PathReason : std::uint8_t {
   kGoalBlocked,    // the goal lies in a protection zone
   kGoalOutOfView,  // the goal lies outside the fan
   kLimit,          // the search or the path met its bound
-  kFrameLost,      // the frame asked for had left the ring before it was planned in
+  kNoFrame,        // no fresh sonar frame to plan in, or PathFinder gave no answer
 };
 inline constexpr std::size_t kPathReasonCount = 7;
 // The reason as the contract spells it: "found", "no_path", ...

@@ -36,6 +36,9 @@ struct PositionFix {
   }
 };
 
+// What the estimator takes its position from.
+enum class PositionSource : std::uint8_t { kTruth, kGps, kDeadReckoning };
+
 // The estimate that everything steers by. Written by the estimator task at 20 Hz, and only while
 // its inputs are fresh; read by DeltaT (known obstacles), the planner, the controller.
 struct VehicleState {

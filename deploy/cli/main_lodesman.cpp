@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// lodesman: the operator's command.
+#include <CLI/CLI.hpp>
+
+#include "deploy/cli/operator_commands.h"
+#include "deploy/cli/run/process_main.h"
+#include "deploy/cli/segment_command.h"
+#include "deploy/cli/sim_command.h"
+#include "deploy/cli/version.h"
+
+int main(int argc, char** argv) {
+  using namespace lodesman::cli;
+  CLI::App app{"Sees underwater obstacles with a forward-looking sonar and steers round them",
+               "lodesman"};
+  app.set_version_flag("--version", kVersion);
+  app.require_subcommand(1);
+  int exit_status = 0;
+  add_sim_command(app, exit_status);
+  add_operator_commands(app, exit_status);
+  add_segment_command(app, exit_status);
+  return process_main(app, argc, argv, [&] { return exit_status; });
+}

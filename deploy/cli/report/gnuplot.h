@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs gnuplot once to turn a script into one PNG file; the only place that knows of
+// gnuplot-iostream. Any one thread; StartupError says in one line why there is no picture.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace lodesman::cli {
+
+struct PictureSize {
+  int width_px = 1200;
+  int height_px = 600;
+};
+
+// The script finds the terminal, the size and the output set. No temporary file is made; a
+// picture that fails leaves no file.
+void draw_picture(const std::filesystem::path& png, PictureSize size, const std::string& script);
+
+}  // namespace lodesman::cli

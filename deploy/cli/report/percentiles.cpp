@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/cli/report/percentiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace lodesman::cli {
+
+Percentiles percentiles(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) {
+    return {};
+  }
+  std::sort(values.begin(), values.end());
+  // In integers: 0.99 is no double, and the rank is a ceiling.
+  const auto at_percent = [&](std::size_t percent) {
+    return values[(percent * values.size() + 99) / 100 - 1];
+  };
+  return {.p50 = at_percent(50), .p99 = at_percent(99), .max = values.back()};
+}
+
+}  // namespace lodesman::cli

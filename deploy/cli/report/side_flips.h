@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// How often a vehicle changed its mind about the side on which to pass an obstacle: the paper's
+// Fig. 5a-b, and a sign of a restless planner. Pure functions; any thread.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "deploy/cli/report/run_record.h"
+
+namespace lodesman::cli {
+
+inline constexpr double kSideFlipRange_m = 15.0;
+
+enum class PassingSide : std::uint8_t {
+  kNone,  // the path does not pass it, or it is not ahead, or too far
+  kLeft,  // the path goes left of the obstacle, as seen along the path
+  kRight,
+};
+
+// The obstacle is where it was when the plan's sonar frame was captured. kNone for a plan that
+// found no path.
+[[nodiscard]] PassingSide passing_side(const PlanRecord& plan, const Obstacle& obstacle);
+
+struct SideFlips {
+  std::uint64_t count = 0;
+  std::optional<double> first_s;  // when the first plan on another side was published
+};
+
+// Over consecutive found plans (those without a path between them do not separate them), each
+// obstacle for itself: left to right or right to left counts, from or to kNone does not.
+[[nodiscard]] SideFlips side_flips(const std::vector<PlanRecord>& plans,
+                                   const std::vector<MovingObstacle>& obstacles);
+
+}  // namespace lodesman::cli

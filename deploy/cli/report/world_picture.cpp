@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "deploy/cli/report/gnuplot.h"
+#include "deploy/cli/report/numbers.h"
+#include "deploy/cli/report/plots.h"
+#include "deploy/cli/report/shapes.h"
+#include "deploy/cli/report/titles.h"
+#include "deploy/cli/report/world_layers.h"
+#include "deploy/cli/report/world_legend.h"
+#include "deploy/cli/report/world_story.h"
+
+namespace lodesman::cli {
+namespace {
+
+constexpr int kWidth_px = 1200;
+constexpr double kLeft_px = 72.0;  // room of the Y axis' numbers and name
+constexpr double kRight_px = 18.0;
+constexpr double kGap_px = 22.0;      // between panels side by side
+constexpr double kTitle_px = 40.0;    // of the picture
+constexpr double kCaption_px = 44.0;  // above each panel: two lines
+constexpr double kAxis_px = 30.0;     // below each panel: the numbers of the X axis
+constexpr double kAxisName_px = 24.0;
+constexpr double kPanelsHeight_px = 860.0;  // all rows of panels, without their captions
+
+// Where the panels lie: equal aspect, so one scale for all.
+struct Layout {
+  int columns = 1;
+  int rows = 1;
+  double px_per_m = 0.0;
+  double panel_width_px = 0.0;
+  double panel_height_px = 0.0;
+
+  [[nodiscard]] double row_pitch_px() const { return kCaption_px + panel_height_px + kAxis_px; }
+};
+
+Layout layout_of(const ViewBox& box, int panels) {
+  const double width_m = box.high[0] - box.low[0];
+  const double height_m = box.high[1] - box.low[1];
+  Layout best;
+  for (int columns = 1; columns <= panels; ++columns) {
+    Layout layout;
+    layout.columns = columns;
+    layout.rows = (panels + columns - 1) / columns;
+    layout.panel_width_px = (kWidth_px - kLeft_px - kRight_px - (columns - 1) * kGap_px) / columns;
+    layout.px_per_m =
+        std::min(layout.panel_width_px / width_m, kPanelsHeight_px / layout.rows / height_m);
+    layout.panel_height_px = height_m * layout.px_per_m;
+    if (layout.px_per_m > best.px_per_m) {
+      best = layout;
+    }
+  }
+  return best;
+}
+
+// 1, 2 or 5 times a power of ten, the next one up.
+double nice_step(double least) {
+  const double power = std::pow(10.0, std::floor(std::log10(std::max(least, 1e-6))));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (least <= factor * power) {
+      return factor * power;
+    }
+  }
+  return 10.0 * power;
+}
+
+// [s] between the pale vehicles of the past: a few metres, and not more than about ten of them.
+double ghost_step_s(const RunRecord& record) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < record.trajectory.size(); ++i) {
+    length_m += std::hypot(record.trajectory[i].x_m - record.trajectory[i - 1].x_m,
+                           record.trajectory[i].y_m - record.trajectory[i - 1].y_m);
+  }
+  if (!(length_m > record.vehicle_radius_m)) {
+    return 0.0;
+  }
+  const double apart_m = std::max({2.0, 3.0 * record.vehicle_radius_m, length_m / 11.0});
+  return nice_step(record.trajectory.back().t_s * apart_m / length_m);
+}
+
+std::vector<double> ghost_times_s(double step_s, double until_s) {
+  std::vector<double> times_s;
+  for (int i = 0; step_s > 0.0 && i * step_s < until_s - 0.4 * step_s; ++i) {
+    times_s.push_back(i * step_s);
+  }
+  return times_s;
+}
+
+// Times are written beside the vehicle, away from what it avoids: +1 east, -1 west.
+double side_of_nearest_obstacle(const RunRecord& record, Point at, double t_s) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  double side = 1.0;
+  for (const MovingObstacle& obstacle : record.obstacles) {
+    if (!obstacle.exists(t_s)) {
+      continue;
+    }
+    for (const Point& point : outline(obstacle.at(t_s))) {
+      const double distance_m = std::hypot(point[0] - at[0], point[1] - at[1]);
+      if (distance_m < nearest_m) {
+        nearest_m = distance_m;
+        side = at[0] < point[0] ? -1.0 : 1.0;
+      }
+    }
+  }
+  return side;
+}
+
+void add_time_label(PlotScript& script, Point beside, double distance_m, double side, double t_s,
+                    const std::string& colour) {
+  script.command("set label " + plot_text(fixed(t_s, t_s < 10.0 ? 1 : 0) + " s") + " at " +
+                 fixed(beside[0] + side * distance_m, 3) + ',' + fixed(beside[1], 3) +
+                 (side < 0.0 ? " right" : " left") + " front font 'Sans,10' tc rgb '" + colour +
+                 "'");
+}
+
+void add_moving_ghosts(PlotScript& script, const RunRecord& record, double t_s, double until_s,
+                       bool is_labelled) {
+  for (const MovingObstacle& obstacle : record.obstacles) {
+    if (!moves(obstacle) || !obstacle.exists(t_s) || t_s > obstacle.stops_at_s) {
+      continue;
+    }
+    const Obstacle then = obstacle.at(t_s);
+    add_obstacle(script, then, 0.8 * t_s / until_s);
+    const TrajectoryRow* row = row_at(record.trajectory, t_s);
+    const Line shape = outline(then);
+    if (is_labelled && row != nullptr && !shape.empty()) {
+      const auto [west, east] = std::minmax_element(
+          shape.begin(), shape.end(), [](const Point& a, const Point& b) { return a[0] < b[0]; });
+      const double middle_m = ((*west)[0] + (*east)[0]) / 2.0;
+      const double side = row->x_m < middle_m ? 1.0 : -1.0;
+      add_time_label(script, {middle_m, (*west)[1]}, ((*east)[0] - (*west)[0]) / 2.0 + 0.15, side,
+                     t_s, obstacle_colour(1.0));
+    }
+  }
+}
+
+void add_obstacles(PlotScript& script, const RunRecord& record, const Moment& moment,
+                   double step_s) {
+  std::vector<Obstacle> there;
+  for (const MovingObstacle& obstacle : record.obstacles) {
+    if (obstacle.exists(moment.t_s)) {
+      there.push_back(obstacle.at(moment.t_s));
+    }
+  }
+  add_zones(script, there);
+  for (const double t_s : ghost_times_s(step_s, moment.t_s)) {
+    add_moving_ghosts(script, record, t_s, moment.t_s, moment.is_end);
+  }
+  for (const Obstacle& obstacle : there) {
+    add_obstacle(script, obstacle, 1.0);
+  }
+}
+
+void add_plan(PlotScript& script, const RunRecord& record, const Moment& moment) {
+  const double radius_m = record.waypoint_radius_m;
+  if (moment.last_found != nullptr) {
+    add_path(script, moment.last_found->path_m);
+  }
+  if (moment.replaced != nullptr) {
+    add_previous_waypoints(script, moment.replaced->waypoints_m, radius_m);
+  }
+  if (moment.plan == nullptr) {
+    return;
+  }
+  if (moment.plan->waypoint_source == "previous") {
+    add_previous_waypoints(script, moment.plan->waypoints_m, radius_m);
+  } else {
+    add_current_waypoints(script, moment.plan->waypoints_m, radius_m);
+  }
+}
+
+void add_vehicles(PlotScript& script, const RunRecord& record, const Moment& moment, double step_s,
+                  bool shows_estimate) {
+  Line track;
+  Line estimate;
+  for (const TrajectoryRow& row : record.trajectory) {
+    if (row.t_s <= moment.t_s + 1e-6) {
+      track.push_back({row.x_m, row.y_m});
+      estimate.push_back({row.estimate_x_m, row.estimate_y_m});
+    }
+  }
+  if (shows_estimate) {
+    add_estimated_trajectory(script, estimate);
+  }
+  add_trajectory(script, track);
+  const double radius_m = record.vehicle_radius_m;
+  for (const double t_s : ghost_times_s(step_s, moment.t_s)) {
+    const TrajectoryRow& row = *row_at(record.trajectory, t_s);
+    const Point at{row.x_m, row.y_m};
+    add_vehicle(script, at, radius_m, row.heading_deg, 0.8 * t_s / moment.t_s);
+    if (moment.is_end && t_s > 0.0) {
+      add_time_label(script, at, radius_m + 0.15, side_of_nearest_obstacle(record, at, t_s), t_s,
+                     vehicle_colour(1.0));
+    }
+  }
+  if (const TrajectoryRow* row = row_at(record.trajectory, moment.t_s)) {
+    add_vehicle(script, {row->x_m, row->y_m}, radius_m, row->heading_deg, 1.0);
+  }
+}
+
+void set_panel(PlotScript& script, const ViewBox& box, const Layout& layout, int index,
+               int height_px) {
+  const int column = index % layout.columns;
+  const int row = index / layout.columns;
+  const double left = kLeft_px + column * (layout.panel_width_px + kGap_px);
+  const double top = kTitle_px + row * layout.row_pitch_px() + kCaption_px;
+  const auto x_part = [](double px) { return fixed(px / kWidth_px, 6); };
+  const auto y_part = [&](double px) { return fixed(1.0 - px / height_px, 6); };
+  script.command("set lmargin at screen " + x_part(left));
+  script.command("set rmargin at screen " + x_part(left + layout.panel_width_px));
+  script.command("set tmargin at screen " + y_part(top));
+  script.command("set bmargin at screen " + y_part(top + layout.panel_height_px));
+  const double middle_m = (box.low[0] + box.high[0]) / 2.0;
+  const double half_m = layout.panel_width_px / layout.px_per_m / 2.0;
+  script.command("set xrange [" + fixed(middle_m - half_m, 4) + ":" + fixed(middle_m + half_m, 4) +
+                 "]; set yrange [" + fixed(box.low[1], 4) + ":" + fixed(box.high[1], 4) + "]");
+  const std::string step = fixed(nice_step(48.0 / layout.px_per_m), 6);
+  script.command("set xtics " + step + "; set ytics " + step);
+  script.command(column == 0 ? "set format y '%g'; set ylabel 'Y [m]' offset 0.5"
+                             : "set format y ''; unset ylabel");
+  script.command("set xlabel 'X [m]' offset 0,0.4");
+}
+
+void set_caption(PlotScript& script, const Moment& moment, int index) {
+  const std::string letter(1, static_cast<char>('a' + index));
+  script.command("unset label");
+  script.command("set label " + plot_text("(" + letter + ")  " + fixed(moment.t_s, 1) + " s") +
+                 " at graph 0,1 offset char 0.2,1.75 left font 'Sans Bold,13'");
+  script.command("set label " + plot_text(moment.caption) +
+                 " at graph 0,1 offset char 0.2,0.65 left font 'Sans,12'");
+}
+
+}  // namespace
+
+void draw_world(const std::filesystem::path& png, const RunRecord& record) {
+  const std::vector<Moment> moments = story(record);
+  const ViewBox box = view_box(record, moments);
+  const Layout layout = layout_of(box, static_cast<int>(moments.size()));
+  const double step_s = ghost_step_s(record);
+  const LegendNeeds needs = legend_needs(record, moments);
+  const int panels_px =
+      static_cast<int>(std::ceil(kTitle_px + layout.rows * layout.row_pitch_px() + kAxisName_px));
+  const int height_px = panels_px + legend_height_px(needs);
+
+  PlotScript script;
+  script.command("set multiplot; unset key; set border lc rgb '#444444'");
+  script.command("set tics nomirror; set grid lc rgb '#dddddd' lw 0.6 dt solid");
+  for (int i = 0; i < static_cast<int>(moments.size()); ++i) {
+    const Moment& moment = moments[static_cast<std::size_t>(i)];
+    set_panel(script, box, layout, i, height_px);
+    set_caption(script, moment, i);
+    if (i == 0) {
+      script.command("set label " + plot_text(picture_title(record.result)) + " at screen 0.5," +
+                     fixed(1.0 - 0.55 * kTitle_px / height_px, 6) + " center font 'Sans Bold,15'");
+    }
+    add_obstacles(script, record, moment, step_s);
+    add_plan(script, record, moment);
+    add_start(script, record.start_m);
+    add_goal(script, record.goal_m, record.goal_radius_m);
+    add_vehicles(script, record, moment, step_s, needs.estimate);
+    script.plot();
+  }
+  script.command("unset label");
+  add_legend(script, needs, kWidth_px, height_px);
+  script.command("unset multiplot");
+  draw_picture(png, {.width_px = kWidth_px, .height_px = height_px}, script.text());
+}
+
+}  // namespace lodesman::cli

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// A whole run in real time: starts lodesman-low and lodesman-high on a segment of their own, looks
+// on, and stops them in order. The caller's thread.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "deploy/cli/run/settings.h"
+#include "deploy/cli/run/watcher.h"
+
+namespace lodesman::cli {
+
+struct RealtimeRun {
+  std::filesystem::path configuration_file;  // resolved: one file with every key
+  std::filesystem::path scenario_file;
+  const TomlDocument& configuration;
+  const Scenario& scenario;
+  bool wait_start = false;  // for an operator's start, instead of starting by itself
+  const std::function<bool()>& interrupted;
+  const std::function<void(const RunProgress&)>& show;
+  std::function<void(const Blackboard&, const Plan&, const SonarPath*, const PlanRecord&)> on_plan;
+};
+
+// A process that dies is named in the record's `fault`, and the other one is stopped.
+[[nodiscard]] RunRecord run_realtime(const RealtimeRun& run);
+
+}  // namespace lodesman::cli

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/cli/run/settings.h"
+
+#include <array>
+#include <cstdlib>
+
+namespace lodesman::cli {
+namespace fs = std::filesystem;
+
+fs::path share_directory() {
+  if (const char* named = std::getenv("LODESMAN_SHARE"); named != nullptr && *named != '\0') {
+    return named;
+  }
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  for (fs::path place = program.parent_path(); place != place.root_path();
+       place = place.parent_path()) {
+    for (const auto& candidate : {place, place / "share" / "lodesman"}) {
+      if (fs::exists(candidate / "deploy" / "config" / "default.toml", error)) {
+        return candidate;
+      }
+    }
+  }
+  throw StartupError(
+      "the shipped configuration was not found; set LODESMAN_SHARE to the directory "
+      "that holds deploy/config");
+}
+
+fs::path config_file(const std::string& name) {
+  return share_directory() / "deploy" / "config" / name;
+}
+
+TomlDocument load_configuration(const std::string& profile, const CommonOptions& options) {
+  TomlDocument configuration = TomlDocument::from_file(config_file("default.toml"));
+  if (profile != "default") {
+    configuration.overlay(TomlDocument::from_file(config_file(profile + ".toml")));
+  }
+  for (const auto& file : options.config_files) {
+    configuration.overlay(TomlDocument::from_file(file));
+  }
+  for (const auto& set : options.sets) {
+    configuration.overlay(TomlDocument::from_text(set, "--set"));
+  }
+  (void)read_low_level_options(configuration.root());
+  (void)read_high_level_options(configuration.root());
+  (void)command_socket_settings(configuration);
+  (void)simulation_settings(configuration);
+  configuration.require_all_keys_read();
+  return configuration;
+}
+
+fs::path scenario_file(const std::string& name_or_path) {
+  const std::array directories{share_directory() / "hal_sim" / "scenarios"};
+  return find_scenario(name_or_path, directories);
+}
+
+VesselParameters load_vessel() {
+  const TomlDocument document = TomlDocument::from_file(config_file("vessel.toml"));
+  const VesselParameters vessel = read_vessel_parameters(document.root().table("vessel"));
+  document.require_all_keys_read();
+  return vessel;
+}
+
+Scenario load_named_scenario(const std::string& name_or_path) {
+  return load_scenario(scenario_file(name_or_path), load_vessel());
+}
+
+LowLevelOptions low_level_options(const TomlDocument& configuration, const Scenario& scenario) {
+  LowLevelOptions options = read_low_level_options(configuration.root());
+  options.sonar_range_m = scenario.sonar.range_m;
+  if (scenario.sonar.scene == SonarScene::kObstacles) {
+    options.delta_t.known_scene = scenario.obstacles;
+  }
+  return options;
+}
+
+HighLevelOptions high_level_options(const TomlDocument& configuration, const Scenario& scenario) {
+  HighLevelOptions options = read_high_level_options(configuration.root());
+  options.estimator.source = scenario.position.source;
+  options.estimator.start = scenario.mission.start.p_WV;
+  options.estimator.origin = {scenario.environment.origin_latitude_deg,
+                              scenario.environment.origin_longitude_deg};
+  options.planner.sonar_range_m = scenario.sonar.range_m;
+  auto& mission = options.planner.mission;
+  mission.goals = scenario.mission.waypoints;
+  mission.goals.push_back(scenario.mission.goal);
+  mission.goal_radius_m = scenario.mission.goal_radius_m;
+  options.controller.surge_ref = scenario.surge_ref;
+  return options;
+}
+
+CommandSocketSettings command_socket_settings(const TomlDocument& configuration) {
+  const TomlTable table = configuration.root().table("command_socket");
+  return {table.text("address", 64), static_cast<std::uint16_t>(table.integer("port", 0, 65535))};
+}
+
+SimulationSettings simulation_settings(const TomlDocument& configuration) {
+  const TomlTable table = configuration.root().table("simulation");
+  return {table.duration("lockstep_jitter_s", Range::between(0.0, 0.1)),
+          table.duration("sonar_view_period_s", Range::between(0.05, 60.0))};
+}
+
+}  // namespace lodesman::cli

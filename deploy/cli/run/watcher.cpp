@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/cli/run/watcher.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "deploy/cli/report/percentiles.h"
+#include "deploy/cli/report/side_flips.h"
+#include "mid_level/base/frames.h"
+#include "mid_level/messages/sonar_view.h"
+
+namespace lodesman::cli {
+namespace {
+
+constexpr double kRowPeriod_s = 0.1;
+
+[[nodiscard]] bool is_stale(HelmReason reason) noexcept {
+  return reason == HelmReason::kStaleState || reason == HelmReason::kStaleAttitude ||
+         reason == HelmReason::kStaleMission;
+}
+
+void keep_least(std::optional<double>& least, double value) noexcept {
+  if (std::isfinite(value) && (!least || value < *least)) {
+    least = value;
+  }
+}
+
+}  // namespace
+
+RunWatcher::RunWatcher(const Blackboard& board, const Scenario& scenario, double waypoint_radius_m)
+    : scenario_{scenario},
+      mission_{board.mission_status},
+      truth_{board.world_truth},
+      state_{board.vehicle_state},
+      helm_{board.helm_command},
+      thrust_{board.thrust_applied},
+      plan_{board.plan},
+      path_{board.sonar_path} {
+  for (const auto& channel : board.task_health) {
+    health_.emplace_back(channel);
+  }
+  const auto& mission = scenario.mission;
+  record_.start_m = {mission.start.p_WV.xy_m.x(), mission.start.p_WV.xy_m.y()};
+  record_.goal_m = {mission.goal.xy_m.x(), mission.goal.xy_m.y()};
+  record_.goal_radius_m = mission.goal_radius_m;
+  record_.vehicle_radius_m = scenario.vehicle_radius_m;
+  record_.waypoint_radius_m = waypoint_radius_m;
+  record_.obstacles = scenario.obstacles;
+}
+
+void RunWatcher::poll() {
+  take_mission();
+  take_commands();
+  take_plans();
+  take_truth();
+  take_health();
+}
+
+void RunWatcher::take_mission() {
+  while (const auto* mission = mission_.next()) {
+    status_ = mission->value;
+  }
+}
+
+void RunWatcher::take_commands() {
+  while (const auto* state = state_.next()) {
+    if (!ended_ && (status_.ended == Time{} || state->stamp <= status_.ended)) {
+      estimate_ = state->value;
+    }
+  }
+  while (const auto* helm = helm_.next()) {
+    command_ = helm->value;
+    const bool stale = status_.state == MissionState::kUnderWay && is_stale(command_.reason);
+    record_.result.stale_events += stale && !was_stale_ ? 1 : 0;
+    was_stale_ = stale;
+  }
+  while (const auto* thrust = thrust_.next()) {
+    const bool newly_stale = thrust->value.reason == ThrustReason::kStaleCommand &&
+                             applied_.reason != ThrustReason::kStaleCommand;
+    record_.result.stale_events += newly_stale ? 1 : 0;
+    applied_ = thrust->value;
+    if (applied_.reason == ThrustReason::kCommanded && applied_.plan_id > answered_plan_) {
+      answered_plan_ = applied_.plan_id;
+      if (applied_.plan_captured != Time{}) {
+        ping_to_command_us_.push_back(to_seconds(thrust->stamp - applied_.plan_captured) * 1e6);
+      }
+    }
+  }
+}
+
+void RunWatcher::take_plans() {
+  while (const auto* plan = plan_.next()) {
+    const SonarPath* path = answer_to(plan->value);
+    PlanRecord record = describe(*plan, path);
+    if (on_plan) {
+      on_plan(plan->value, path, record);
+    }
+    ++record_.result.plans;
+    ++(record.reason == PathReason::kFound ? record_.result.plans_found
+                                           : record_.result.plans_not_found);
+    ++record_.result.plan_reasons[to_string(record.reason)];
+    plan_times_us_.push_back(record.plan_time_us);
+    last_plan_ = record;
+    last_plan_->path_m.clear();
+    record_.plans.push_back(std::move(record));
+  }
+}
+
+void RunWatcher::take_truth() {
+  while (const auto* truth = truth_.next()) {
+    add_truth(*truth);
+  }
+  if (status_.ended != Time{} && !ended_ && status_.started != Time{}) {
+    end_at_truth();
+  }
+}
+
+void RunWatcher::add_truth(const Stamped<WorldTruth>& truth) {
+  const WorldTruth& now = truth.value;
+  recent_truth_.push_back(truth);
+  if (recent_truth_.size() > 50) {
+    recent_truth_.pop_front();
+  }
+  if (status_.started == Time{} || truth.stamp < status_.started || ended_) {
+    return;
+  }
+  RunResult& result = record_.result;
+  if (last_truth_) {
+    result.path_length_m += std::hypot(now.x_m - last_truth_->x_m, now.y_m - last_truth_->y_m);
+  }
+  last_truth_ = now;
+  result.time_s = now.scenario_time_s;
+  const auto least_before = result.min_inoffensive_distance_m;
+  keep_least(result.min_inoffensive_distance_m, now.inoffensive_distance_m);
+  if (result.min_inoffensive_distance_m != least_before) {
+    result.time_of_min_inoffensive_distance_s = now.scenario_time_s;
+  }
+  keep_least(result.min_hull_clearance_m, now.hull_clearance_m);
+  if (now.scenario_time_s >= next_row_s_ - 1e-6) {
+    add_row(now);
+    next_row_s_ += kRowPeriod_s;
+  }
+}
+
+void RunWatcher::add_row(const WorldTruth& truth) {
+  if (heading_10hz_rad_) {
+    record_.result.heading_travel_deg +=
+        to_deg(std::abs(wrap_to_pi(truth.heading_rad - *heading_10hz_rad_)));
+  }
+  heading_10hz_rad_ = truth.heading_rad;
+  TrajectoryRow row;
+  row.t_s = truth.scenario_time_s;
+  row.x_m = truth.x_m;
+  row.y_m = truth.y_m;
+  row.heading_deg = compass_deg(truth.heading_rad);
+  row.estimate_x_m = estimate_.x_m;
+  row.estimate_y_m = estimate_.y_m;
+  row.surge_m_s = truth.surge_m_s;
+  row.surge_ref = command_.surge_ref;
+  row.head_ref = command_.head_ref;
+  row.thrust_left = applied_.left;
+  row.thrust_right = applied_.right;
+  row.id_m = truth.inoffensive_distance_m;
+  row.plan_id = command_.plan_id;
+  row.path_found = last_plan_ && last_plan_->reason == PathReason::kFound;
+  row.waypoint_x_m = command_.waypoint_x_m;
+  row.waypoint_y_m = command_.waypoint_y_m;
+  record_.trajectory.push_back(row);
+}
+
+// The truth at the instant that the mission ended, which was published a little earlier.
+void RunWatcher::end_at_truth() noexcept {
+  ended_ = true;
+  for (const auto& truth : recent_truth_) {
+    if (truth.stamp <= status_.ended) {
+      last_truth_ = truth.value;
+    }
+  }
+  record_.result.time_s = to_seconds(status_.ended - status_.started);
+}
+
+void RunWatcher::take_health() {
+  std::uint64_t overruns = 0;
+  for (auto& reader : health_) {
+    const auto* health = reader.latest();
+    overruns += health != nullptr ? health->value.overruns : 0;
+  }
+  record_.result.overruns = overruns;
+}
+
+const SonarPath* RunWatcher::answer_to(const Plan& plan) {
+  const auto* newest = path_.latest();
+  while (newest != nullptr && newest->value.request > plan.id) {
+    newest = path_.at(newest->sequence - 1);
+  }
+  return newest != nullptr && newest->value.request == plan.id ? &newest->value : nullptr;
+}
+
+PlanRecord RunWatcher::describe(const Stamped<Plan>& published, const SonarPath* path) const {
+  const Plan& plan = published.value;
+  PlanRecord record;
+  record.id = plan.id;
+  record.t_s = scenario_time_of(published.stamp);
+  record.captured_s = scenario_time_of(plan.captured);
+  record.start_m = {plan.pose_x_m, plan.pose_y_m};
+  record.start_heading_deg = compass_deg(plan.pose_heading_rad);
+  record.goal_m = {plan.goal_x_m, plan.goal_y_m};
+  record.reason = plan.reason;
+  record.waypoint_source = to_string(plan.source);
+  for (std::uint32_t i = 0; i < plan.waypoint_count; ++i) {
+    record.waypoints_m.push_back({plan.waypoints[i].x_m, plan.waypoints[i].y_m});
+  }
+  if (path == nullptr) {
+    return record;
+  }
+  record.expansions = path->expansions;
+  record.plan_time_us = path->plan_time_ns / 1e3;
+  if (path->reason == PathReason::kFound) {
+    record.cost_10_14 = path->cost_10_14;
+  }
+  const VehiclePose pose{{{plan.pose_x_m, plan.pose_y_m}},
+                         Heading::clockwise_from_y_rad(plan.pose_heading_rad)};
+  const SonarView view{scenario_.sonar.range_m};
+  for (std::uint32_t i = 0; i < path->pixel_count; ++i) {
+    const WorldPoint p = pose.to_world(view.to_vehicle(path->pixels[i]));
+    record.path_m.push_back({p.xy_m.x(), p.xy_m.y()});
+  }
+  return record;
+}
+
+double RunWatcher::scenario_time_of(Time stamp) const noexcept {
+  return status_.started == Time{} ? 0.0 : to_seconds(stamp - status_.started);
+}
+
+bool RunWatcher::mission_ended() const noexcept { return ended_; }
+
+RunProgress RunWatcher::progress() const {
+  RunProgress progress;
+  progress.state = status_.state;
+  if (last_truth_) {
+    progress.truth = *last_truth_;
+    progress.scenario_time_s = last_truth_->scenario_time_s;
+    progress.to_goal_m =
+        std::hypot(record_.goal_m[0] - last_truth_->x_m, record_.goal_m[1] - last_truth_->y_m);
+  }
+  progress.last_plan = last_plan_;
+  return progress;
+}
+
+RunRecord RunWatcher::finish() {
+  RunResult& result = record_.result;
+  result.reached = status_.state == MissionState::kReached;
+  result.collided = result.min_inoffensive_distance_m.value_or(1.0) < 0.0 ||
+                    result.min_hull_clearance_m.value_or(1.0) < 0.0;
+  result.outcome = result.collided                           ? "collision"
+                   : result.reached                          ? "goal"
+                   : status_.state == MissionState::kAborted ? "aborted"
+                                                             : "time_limit";
+  const WorldTruth truth = last_truth_.value_or(WorldTruth{});
+  result.final_m = {truth.x_m, truth.y_m};
+  result.goal_error_m = std::hypot(truth.x_m - record_.goal_m[0], truth.y_m - record_.goal_m[1]);
+  result.estimate_error_m = std::hypot(truth.x_m - estimate_.x_m, truth.y_m - estimate_.y_m);
+  result.mean_speed_m_s = result.time_s > 0.0 ? result.path_length_m / result.time_s : 0.0;
+  result.side_flips = side_flips(record_.plans, record_.obstacles).count;
+  result.plan_time_us = percentiles(plan_times_us_);
+  result.ping_to_command_us = percentiles(ping_to_command_us_);
+  return record_;
+}
+
+}  // namespace lodesman::cli

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Looks on at a run over the blackboard and keeps its record: the same for two processes in real
+// time and for lock-step. One thread; it writes nothing that the boat reads.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "deploy/cli/report/run_record.h"
+#include "hal_sim/world/scenario.h"
+#include "mid_level/blackboard/blackboard.h"
+
+namespace lodesman::cli {
+
+// What a display wants to know now.
+struct RunProgress {
+  MissionState state = MissionState::kIdle;
+  double scenario_time_s = 0.0;
+  double to_goal_m = 0.0;
+  WorldTruth truth;
+  std::optional<PlanRecord> last_plan;  // without its path
+};
+
+class RunWatcher {
+ public:
+  RunWatcher(const Blackboard& board, const Scenario& scenario, double waypoint_radius_m);
+
+  // Takes in everything published since the last call; to be called at least once a second.
+  void poll();
+
+  [[nodiscard]] bool mission_ended() const noexcept;  // reached or aborted
+  [[nodiscard]] RunProgress progress() const;
+  // Called for each plan, with the answer of PathFinder that it was made from (or nullptr).
+  std::function<void(const Plan&, const SonarPath*, const PlanRecord&)> on_plan;
+
+  // The record as it stands. Names, mode, hash and factor are the caller's to fill in.
+  [[nodiscard]] RunRecord finish();
+
+ private:
+  void take_mission();
+  void take_truth();
+  void take_commands();
+  void take_plans();
+  void take_health();
+  void add_truth(const Stamped<WorldTruth>& truth);
+  void add_row(const WorldTruth& truth);
+  [[nodiscard]] const SonarPath* answer_to(const Plan& plan);
+  [[nodiscard]] PlanRecord describe(const Stamped<Plan>& plan, const SonarPath* path) const;
+  [[nodiscard]] double scenario_time_of(Time stamp) const noexcept;
+  void end_at_truth() noexcept;
+
+  const Scenario scenario_;
+  RunRecord record_;
+
+  Reader<MissionStatus> mission_;
+  Reader<WorldTruth> truth_;
+  Reader<VehicleState> state_;
+  Reader<HelmCommand> helm_;
+  Reader<ThrustApplied> thrust_;
+  Reader<Plan> plan_;
+  Reader<SonarPath> path_;
+  std::vector<Reader<TaskHealth>> health_;
+
+  MissionStatus status_;
+  VehicleState estimate_;
+  HelmCommand command_;
+  ThrustApplied applied_;
+  std::optional<PlanRecord> last_plan_;
+  std::deque<Stamped<WorldTruth>> recent_truth_;  // the last second
+  std::optional<WorldTruth> last_truth_;
+  std::optional<double> heading_10hz_rad_;
+  double next_row_s_ = 0.0;
+  bool ended_ = false;
+  std::uint64_t answered_plan_ = 0;  // newest plan whose first command was timed
+  bool was_stale_ = false;
+  std::vector<double> plan_times_us_;
+  std::vector<double> ping_to_command_us_;
+};
+
+}  // namespace lodesman::cli

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/cli/segment_command.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deploy/cli/common_options.h"
+#include "low_level/path/path_finder.h"
+#include "low_level/sonar/ping_image.h"
+#include "low_level/sonar/segmentation.h"
+#include "low_level/sonar/segmentation_config.h"
+#include "low_level/sonar/view_image.h"
+#include "mid_level/base/heading.h"
+#include "mid_level/base/startup_error.h"
+
+namespace lodesman::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// What the command segments with, unless --config, --set or --threshold say otherwise. The same
+// values as the vehicle's configuration.
+constexpr const char* kShippedSegmentation = R"([segmentation]
+threshold = 50.0
+min_range_m = 1.0
+min_blob_bins = 12
+join_beams = 1
+join_bins = 3
+max_obstacle_length_m = 3.0
+min_fill = 0.4
+enclosed_fraction = 0.95
+protection_margin_m = 1.5
+stripe_fraction = 0.3
+stripe_max_beams = 5
+)";
+
+struct SegmentOptions {
+  CommonOptions common;
+  std::vector<std::string> images;
+  double range_m = 0.0;
+  double sector_deg = 0.0;
+  bool fan = false;
+  bool apex_at_bottom = true;
+  std::vector<double> apex_px;  // none, or column and row
+  double radius_px = 0.0;       // 0: the image's height
+  std::string overlay_dir;
+  std::vector<double> plan_m;  // none, or x and y
+  double threshold = 0.0;      // 0: the configuration's
+};
+
+SegmentationOptions configured(const SegmentOptions& options) {
+  TomlDocument document = TomlDocument::from_text(kShippedSegmentation, "segmentation defaults");
+  for (const std::string& file : options.common.config_files) {
+    document.overlay(TomlDocument::from_file(file));
+  }
+  for (const std::string& set : options.common.sets) {
+    document.overlay(TomlDocument::from_text(set, "--set " + set));
+  }
+  SegmentationOptions segmentation =
+      read_segmentation_options(document.root().table("segmentation"));
+  document.require_all_keys_read();
+  if (options.threshold > 0.0) {
+    segmentation.threshold = options.threshold;
+  }
+  return segmentation;
+}
+
+// The frames of one call, one after another, through one Segmenter as on the vehicle.
+class FrameReader {
+ public:
+  explicit FrameReader(const SegmentOptions& options)
+      : options_{options}, segmenter_{configured(options)} {}
+
+  Json read(const fs::path& file);
+
+ private:
+  void load(const fs::path& file);
+  void plan(Json& frame);
+  void save_overlay(const fs::path& file);
+
+  const SegmentOptions& options_;
+  Segmenter segmenter_;
+  PathFinder path_finder_;
+  // On the heap, because a ping is half a megabyte.
+  std::unique_ptr<SonarPing> ping_ = std::make_unique<SonarPing>();
+  std::unique_ptr<SonarObstacles> obstacles_ = std::make_unique<SonarObstacles>();
+  std::unique_ptr<SonarPath> path_ = std::make_unique<SonarPath>();
+  std::map<std::string, int> overlay_names_;  // how often each has been used
+};
+
+void FrameReader::load(const fs::path& file) {
+  const GreyImage image = read_grey_image(file);
+  ping_->number += 1;
+  ping_->range_m = options_.range_m;
+  ping_->sector_rad = to_rad(options_.sector_deg);
+  if (!options_.fan) {
+    polar_to_ping(image, file, *ping_);
+    return;
+  }
+  FanGeometry fan = whole_image_fan(image, options_.apex_at_bottom);
+  if (!options_.apex_px.empty()) {
+    fan.apex_column_px = options_.apex_px[0];
+    fan.apex_row_px = options_.apex_px[1];
+  }
+  if (options_.radius_px > 0.0) {
+    fan.radius_px = options_.radius_px;
+  }
+  fan_to_ping(image, fan, *ping_);
+}
+
+// An ellipse is the same turned by half a turn: (-90, 90] says it once.
+double half_turn_deg(double rad) {
+  const double deg = to_deg(std::remainder(rad, std::numbers::pi));
+  return deg <= -90.0 ? deg + 180.0 : deg;
+}
+
+Json to_json(const Obstacle& o) {
+  return {{"centre_m", {o.centre_x_m, o.centre_y_m}},
+          {"semi_axes_m", {o.semi_axis_first_m, o.semi_axis_second_m}},
+          {"angle_deg", half_turn_deg(o.angle_rad)},
+          {"protection_semi_axes_m", {o.protection_first_m, o.protection_second_m}},
+          {"range_m", std::hypot(o.centre_x_m, o.centre_y_m)},
+          {"bearing_deg", to_deg(std::atan2(o.centre_x_m, o.centre_y_m))},
+          {"peak", o.peak}};
+}
+
+Json FrameReader::read(const fs::path& file) {
+  load(file);
+  segmenter_.segment(*ping_, *obstacles_);
+  Json frame{{"file", file.string()}, {"obstacles", Json::array()}};
+  for (std::uint32_t i = 0; i < obstacles_->count; ++i) {
+    frame["obstacles"].push_back(to_json(obstacles_->obstacles[i]));
+  }
+  if (obstacles_->dropped > 0) {
+    frame["dropped"] = obstacles_->dropped;
+  }
+  frame["path_m"] = nullptr;  // nothing was asked for
+  if (!options_.plan_m.empty()) {
+    plan(frame);
+  }
+  if (!options_.overlay_dir.empty()) {
+    save_overlay(file);
+  }
+  return frame;
+}
+
+void FrameReader::plan(Json& frame) {
+  const PathRequest request{ping_->number, ping_->number, options_.plan_m[0], options_.plan_m[1]};
+  path_finder_.find_path(*obstacles_, request, options_.range_m, *path_);
+  frame["path_m"] = Json::array();
+  const SonarView view{options_.range_m};
+  for (std::uint32_t i = 0; i < path_->pixel_count; ++i) {
+    const VehiclePoint point = view.to_vehicle(path_->pixels[i]);
+    frame["path_m"].push_back({point.xy_m.x(), point.xy_m.y()});
+  }
+  frame["reason"] = to_string(path_->reason);
+}
+
+void FrameReader::save_overlay(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const int used = ++overlay_names_[stem];
+  const fs::path overlay = fs::path{options_.overlay_dir} /
+                           (stem + (used > 1 ? "-" + std::to_string(used) : "") + ".png");
+  std::string caption = stem + "\n" + std::to_string(obstacles_->count) + " obstacles";
+  ViewPicture picture;
+  picture.range_m = options_.range_m;
+  picture.ping = ping_.get();
+  picture.obstacles = obstacles_.get();
+  if (!options_.plan_m.empty()) {
+    picture.path = {path_->pixels.data(), path_->pixel_count};
+    picture.goal = VehiclePoint{{options_.plan_m[0], options_.plan_m[1]}};
+    caption += std::string{", path: "} + to_string(path_->reason);
+  }
+  picture.caption = caption;
+  if (!save_png(overlay, picture)) {
+    throw StartupError{overlay.string(), 1, "--overlay", "cannot be written"};
+  }
+}
+
+void print_frame(const Json& frame) {
+  std::cout << frame["file"].get<std::string>() << ": " << frame["obstacles"].size()
+            << " obstacles\n";
+  for (const Json& o : frame["obstacles"]) {
+    std::array<char, 128> line{};
+    std::snprintf(line.data(), line.size(),
+                  "  %7.2f m %+7.2f deg  %5.2f x %5.2f m at %+4.0f deg  peak %3.0f\n",
+                  o["range_m"].get<double>(), o["bearing_deg"].get<double>(),
+                  o["semi_axes_m"][0].get<double>(), o["semi_axes_m"][1].get<double>(),
+                  o["angle_deg"].get<double>(), o["peak"].get<double>());
+    std::cout << line.data();
+  }
+  if (frame.contains("reason")) {
+    std::cout << "  path: " << frame["reason"].get<std::string>() << ", " << frame["path_m"].size()
+              << " pixels\n";
+  }
+}
+
+void show_progress(const SegmentOptions& options, std::size_t done) {
+  constexpr std::size_t kMany = 4;
+  const std::size_t all = options.images.size();
+  if (options.common.quiet || all < kMany) {
+    return;
+  }
+  const bool terminal = isatty(STDERR_FILENO) == 1;
+  if (terminal) {
+    std::cerr << "\rsegment: " << done << "/" << all << (done == all ? "\n" : "") << std::flush;
+  } else if (done == all || done % 100 == 0) {
+    std::cerr << "segment: " << done << "/" << all << "\n";
+  }
+}
+
+void segment(const SegmentOptions& options) {
+  if (!options.overlay_dir.empty()) {
+    std::error_code error;
+    fs::create_directories(options.overlay_dir, error);
+    if (error) {
+      throw StartupError{options.overlay_dir, 1, "--overlay", error.message()};
+    }
+  }
+  FrameReader reader{options};
+  Json frames = Json::array();
+  for (const std::string& image : options.images) {
+    frames.push_back(reader.read(image));
+    show_progress(options, frames.size());
+  }
+  if (options.common.json) {
+    std::cout << Json{{"frames", std::move(frames)}}.dump(-1, ' ', false,
+                                                          Json::error_handler_t::replace)
+              << "\n";
+  } else if (!options.common.quiet) {
+    for (const Json& frame : frames) {
+      print_frame(frame);
+    }
+  }
+}
+
+// CLI11 owns its subcommands, so the options live and die with theirs.
+class SegmentCommand : public CLI::App {
+ public:
+  explicit SegmentCommand(int& exit_status)
+      : CLI::App{"Find obstacles in sonar frames", "segment"}, exit_status_{exit_status} {
+    add_common_options(*this, options_.common);
+    add_input_options();
+    add_option("--overlay", options_.overlay_dir, "Draw what was found into this directory")
+        ->type_name("DIR");
+    add_option("--plan", options_.plan_m, "Find a path to this goal in the vehicle frame")
+        ->expected(2)
+        ->delimiter(',')
+        ->type_name("X,Y");
+    add_option("--threshold", options_.threshold, "Echo strength from which a bin is bright")
+        ->check(CLI::Range(1.0, 255.0));
+    footer("Example:\n  lodesman segment frames/*.pgm --range-m 30 --sector-deg 120 --json");
+    callback([this] { run(); });
+  }
+
+ private:
+  void add_input_options() {
+    add_option("IMAGE", options_.images, "8-bit PGM, PNG or JPEG frames")->required();
+    add_option("--range-m", options_.range_m, "Range setting of the sonar")
+        ->required()
+        ->check(CLI::Range(0.1, 300.0));
+    add_option("--sector-deg", options_.sector_deg, "Sector that the frames show")
+        ->required()
+        ->check(CLI::Range(1.0, 180.0));
+    add_option("--layout", layout_,
+               "polar: a column a beam, row 0 nearest; fan: as displayed, range as the distance "
+               "from the apex")
+        ->check(CLI::IsMember({"polar", "fan"}))
+        ->capture_default_str();
+    add_option("--apex", apex_, "fan: where the head is; with top, range grows downwards")
+        ->check(CLI::IsMember({"top", "bottom"}))
+        ->capture_default_str();
+    add_option("--apex-px", options_.apex_px,
+               "fan: the head's pixel; default: the middle of the bottom (or top) row")
+        ->expected(2)
+        ->delimiter(',')
+        ->type_name("COLUMN,ROW");
+    add_option("--radius-px", options_.radius_px,
+               "fan: pixels from the apex to full range; default: the image's height")
+        ->check(CLI::Range(1.0, 1e5));
+  }
+
+  void run() {
+    options_.fan = layout_ == "fan";
+    options_.apex_at_bottom = apex_ == "bottom";
+    try {
+      segment(options_);
+      exit_status_ = kExitDone;
+    } catch (const StartupError& error) {
+      std::cerr << error.what() << "\n";
+      exit_status_ = kExitRefused;
+    }
+  }
+
+  int& exit_status_;
+  SegmentOptions options_;
+  std::string layout_ = "polar";
+  std::string apex_ = "bottom";
+};
+
+}  // namespace
+
+void add_segment_command(CLI::App& root, int& exit_status) {
+  root.add_subcommand(std::make_shared<SegmentCommand>(exit_status));
+}
+
+}  // namespace lodesman::cli

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+# Debian packages, and how the set-up scripts install those that are missing. To be sourced.
+
+build_packages="g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev libspdlog-dev
+  libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libtomlplusplus-dev libcli11-dev
+  nlohmann-json3-dev libgeographiclib-dev libxxhash-dev libgnuplot-iostream-dev gnuplot-nox"
+test_packages="catch2"
+
+say() { echo "lodesman: $*" >&2; }
+
+# Runs a command as root: as it is, or through sudo.
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
+}
+
+# Installs what is missing of the packages named; says nothing and asks nobody when none is.
+install_packages() {
+  missing=""
+  for package in "$@"; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q "ok installed" ||
+      missing="$missing $package"
+  done
+  [ -z "$missing" ] && return 0
+  say "installing$missing"
+  as_root apt-get update -qq
+  as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends $missing >/dev/null
+}
+
+# Runs a command quietly; its output is shown only when it fails.
+quietly() {
+  log=$(mktemp)
+  if ! "$@" >"$log" 2>&1; then
+    cat "$log" >&2
+    rm -f "$log"
+    return 1
+  fi
+  rm -f "$log"
+}

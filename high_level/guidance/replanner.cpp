@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "high_level/guidance/replanner.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "high_level/guidance/waypoints.h"
+
+namespace lodesman {
+namespace {
+
+[[nodiscard]] VehiclePose pose_of(const VehicleState& state) noexcept {
+  return {{{state.x_m, state.y_m}}, Heading::clockwise_from_y_rad(state.heading_rad)};
+}
+
+[[nodiscard]] VehiclePose between(const VehicleState& a, const VehicleState& b, Time at) noexcept {
+  const double share = to_seconds(at - a.valid_at) / to_seconds(b.valid_at - a.valid_at);
+  const Heading from = Heading::clockwise_from_y_rad(a.heading_rad);
+  const double turn = from.turn_to_rad(Heading::clockwise_from_y_rad(b.heading_rad));
+  return {{{a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m)}},
+          Heading::clockwise_from_y_rad(a.heading_rad + share * turn)};
+}
+
+}  // namespace
+
+void PoseHistory::add(const VehicleState& state) noexcept {
+  if (count_ > 0 && state.valid_at <= ring_[(count_ - 1) % kSize].valid_at) {
+    return;
+  }
+  ring_[count_ % kSize] = state;
+  ++count_;
+}
+
+std::optional<VehiclePose> PoseHistory::at(Time at) const noexcept {
+  constexpr Duration kAheadOfNewest = std::chrono::milliseconds{100};
+  if (count_ == 0) {
+    return std::nullopt;
+  }
+  const VehicleState& newest = ring_[(count_ - 1) % kSize];
+  if (at >= newest.valid_at) {
+    return at - newest.valid_at <= kAheadOfNewest ? std::optional{pose_of(newest)} : std::nullopt;
+  }
+  const std::size_t remembered = std::min(count_, kSize);
+  for (std::size_t back = 1; back < remembered; ++back) {
+    const VehicleState& later = ring_[(count_ - back) % kSize];
+    const VehicleState& earlier = ring_[(count_ - back - 1) % kSize];
+    if (at >= earlier.valid_at) {
+      return between(earlier, later, at);
+    }
+  }
+  return std::nullopt;
+}
+
+void Replanner::start() noexcept {
+  pending_.reset();
+  asked_.reset();
+  planned_frame_ = 0;
+  blind_ = false;
+  plan_ = Plan{};
+}
+
+std::optional<PathRequest> Replanner::request(Time now, std::uint64_t frame, Time frame_captured,
+                                              const WorldPoint& goal,
+                                              const PoseHistory& poses) noexcept {
+  const bool due = !asked_ || now - *asked_ >= options_.replan_period;
+  if (pending_ || !due || frame == planned_frame_) {
+    return std::nullopt;
+  }
+  const auto pose = poses.at(frame_captured);
+  if (!pose) {
+    return std::nullopt;
+  }
+  const VehiclePoint goal_V = pose->to_vehicle(goal);  // eqs 3-4
+  const PathRequest request{next_id_++, frame, goal_V.xy_m.x(), goal_V.xy_m.y()};
+  pending_ = Pending{request, now, frame_captured, *pose, goal};
+  // Phase is kept against the plan's own clock, so that a late tick does not stretch the period.
+  const bool in_step = asked_ && now - *asked_ < 2 * options_.replan_period;
+  asked_ = in_step ? *asked_ + options_.replan_period : now;
+  planned_frame_ = frame;
+  return request;
+}
+
+const Plan* Replanner::answer(Time now, const SonarPath& path, double range_m) noexcept {
+  if (!pending_ || path.request != pending_->request.id) {
+    return nullptr;
+  }
+  const Pending pending = *pending_;
+  pending_.reset();
+  blind_ = false;
+  describe(pending, path.reason);
+  if (path.reason == PathReason::kFound) {
+    place_waypoints({path.pixels.data(), path.pixel_count}, SonarView{range_m}, pending.pose,
+                    pending.goal, options_.waypoint_interval_m, plan_);
+    plan_.source = WaypointSource::kCurrent;
+    plan_.path_id = plan_.id;
+    plan_.path_captured = pending.captured;
+  } else {
+    keep_previous(now);
+  }
+  return &plan_;
+}
+
+const Plan* Replanner::no_frame(Time now, bool frame_is_fresh) noexcept {
+  const bool given_up = pending_ && now - pending_->asked > options_.answer_patience;
+  if (given_up) {
+    pending_.reset();
+  }
+  if ((frame_is_fresh && !given_up) || blind_) {
+    return nullptr;
+  }
+  blind_ = true;
+  plan_.id = next_id_++;
+  plan_.reason = PathReason::kNoFrame;
+  plan_.source = WaypointSource::kNone;
+  plan_.path_id = 0;
+  plan_.waypoint_count = 0;
+  return &plan_;
+}
+
+void Replanner::keep_previous(Time now) noexcept {
+  const bool young =
+      plan_.path_id != 0 && now - plan_.path_captured <= options_.previous_path_max_age;
+  plan_.source = young ? WaypointSource::kPrevious : WaypointSource::kNone;
+  if (!young) {
+    plan_.waypoint_count = 0;
+  }
+}
+
+void Replanner::describe(const Pending& pending, PathReason reason) noexcept {
+  plan_.id = pending.request.id;
+  plan_.frame = pending.request.frame;
+  plan_.captured = pending.captured;
+  plan_.pose_x_m = pending.pose.p_WV.xy_m.x();
+  plan_.pose_y_m = pending.pose.p_WV.xy_m.y();
+  plan_.pose_heading_rad = pending.pose.heading.rad();
+  plan_.goal_x_m = pending.goal.xy_m.x();
+  plan_.goal_y_m = pending.goal.xy_m.y();
+  plan_.reason = reason;
+}
+
+}  // namespace lodesman

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The re-planner of the paper's Fig. 1: asks PathFinder for a path in the newest sonar frame, takes
+// the answer into the world at the pose of that frame, and keeps the previous waypoints when there
+// is no path. It is handed everything it needs; one thread.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "mid_level/base/frames.h"
+#include "mid_level/base/time.h"
+#include "mid_level/messages/command.h"
+#include "mid_level/messages/path.h"
+#include "mid_level/messages/vehicle.h"
+
+namespace lodesman {
+
+struct ReplannerOptions {
+  Duration replan_period{};    // at the earliest so long after the last request; the paper: 1.6 s
+  Duration answer_patience{};  // a request unanswered for so long is given up
+  double waypoint_interval_m = 0.0;  // [m] the paper's C
+  Duration previous_path_max_age{};  // previous waypoints are dropped when their frame is older
+};
+
+// The poses of the last seconds, so that a sonar frame can be put where the vehicle was when it
+// was captured.
+class PoseHistory {
+ public:
+  void add(const VehicleState& state) noexcept;
+  // Interpolated; empty when `at` lies outside what is remembered (but for 0.1 s after the newest,
+  // which counts as the newest).
+  [[nodiscard]] std::optional<VehiclePose> at(Time at) const noexcept;
+
+ private:
+  static constexpr std::size_t kSize = 128;
+  std::array<VehicleState, kSize> ring_{};
+  std::size_t count_ = 0;  // ever added
+};
+
+class Replanner {
+ public:
+  explicit Replanner(const ReplannerOptions& options) noexcept : options_{options} {}
+
+  // Forgets plans and goal: a mission starts.
+  void start() noexcept;
+
+  // Steps 2-4 and 9: the request for this frame, if one is due. frame_captured belongs to `frame`.
+  [[nodiscard]] std::optional<PathRequest> request(Time now, std::uint64_t frame,
+                                                   Time frame_captured, const WorldPoint& goal,
+                                                   const PoseHistory& poses) noexcept;
+
+  // Steps 11-12 for the answer to the pending request; nothing for any other answer.
+  [[nodiscard]] const Plan* answer(Time now, const SonarPath& path, double range_m) noexcept;
+
+  // The plan when no sonar frame is fresh, or the pending request is given up: nothing is known, so
+  // nothing is followed. Empty while there is still hope, and when that was said already.
+  [[nodiscard]] const Plan* no_frame(Time now, bool frame_is_fresh) noexcept;
+
+ private:
+  struct Pending {
+    PathRequest request;
+    Time asked{};
+    Time captured{};
+    VehiclePose pose;
+    WorldPoint goal;
+  };
+  // Step 12.4: the previous waypoints stand, as long as they are young enough.
+  void keep_previous(Time now) noexcept;
+  void describe(const Pending& pending, PathReason reason) noexcept;
+
+  ReplannerOptions options_;
+  std::optional<Pending> pending_;
+  std::optional<Time> asked_;
+  std::uint64_t planned_frame_ = 0;
+  std::uint64_t next_id_ = 1;
+  bool blind_ = false;
+  Plan plan_;
+};
+
+}  // namespace lodesman

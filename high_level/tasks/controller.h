@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The controller task: tracks the waypoints of the newest plan with constant surge and the P
+// controller of the heading (eqs 7-9); neutral, with the reason, whenever an input is missing.
+#pragma once
+
+#include "high_level/guidance/waypoints.h"
+#include "mid_level/runtime/task.h"
+
+namespace lodesman {
+
+struct ControllerOptions {
+  int surge_ref = 0;                  // [-] [-100, 100] eq. 7
+  double heading_gain_per_deg = 0.0;  // [1/deg] > 0 Kh of eq. 9
+  double waypoint_radius_m = 0.0;     // [m] > 0
+};
+
+class ControllerTask final : public Task {
+ public:
+  ControllerTask(Blackboard& board, Role role, const ControllerOptions& options);
+  void step(Time now) noexcept override;
+  void enter_safe_state(Time now) noexcept override;
+
+ private:
+  [[nodiscard]] HelmCommand decide(Time now) noexcept;
+
+  ControllerOptions options_;
+  WaypointTracker tracker_;
+  Reader<Attitude> attitude_;
+  Reader<VehicleState> vehicle_state_;
+  Reader<MissionStatus> mission_status_;
+  Reader<Plan> plan_;
+  Writer<HelmCommand> commands_;
+};
+
+}  // namespace lodesman

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "high_level/tasks/estimator.h"
+
+namespace lodesman {
+
+EstimatorTask::EstimatorTask(Blackboard& board, Role role, const EstimatorOptions& options)
+    : options_{options},
+      local_frame_{options.origin},
+      dead_reckoning_{options.dead_reckoning, options.start},
+      attitude_{board.attitude},
+      position_fix_{board.position_fix},
+      world_truth_{board.world_truth},
+      thrust_applied_{board.thrust_applied},
+      states_{board.vehicle_state, role, "vehicle_state"} {}
+
+void EstimatorTask::step(Time now) noexcept {
+  const auto* attitude = attitude_.fresh(now, max_age::kAttitude);
+  if (attitude == nullptr) {
+    return;
+  }
+  const Heading heading = Heading::clockwise_from_y_rad(attitude->value.heading_rad);
+  const auto* thrust = thrust_applied_.fresh(now, max_age::kThrustApplied);
+  const int surge_ref = thrust != nullptr ? thrust->value.surge_ref : 0;
+  if (!update_position(now, heading, surge_ref)) {
+    return;
+  }
+  VehicleState state;
+  state.valid_at = now;
+  state.x_m = dead_reckoning_.position().xy_m.x();
+  state.y_m = dead_reckoning_.position().xy_m.y();
+  state.heading_rad = heading.rad();
+  state.surge_m_s = dead_reckoning_.speed_m_s(surge_ref);
+  states_.publish(state, now);
+}
+
+bool EstimatorTask::update_position(Time now, Heading heading, int surge_ref) noexcept {
+  if (options_.source == PositionSource::kTruth) {
+    const auto* truth = world_truth_.fresh(now, max_age::kWorldTruth);
+    if (truth == nullptr) {
+      return false;
+    }
+    dead_reckoning_.correct({{truth->value.x_m, truth->value.y_m}}, 1.0);
+    return true;
+  }
+  dead_reckoning_.advance(now, surge_ref, heading);
+  if (options_.source == PositionSource::kDeadReckoning) {
+    return true;
+  }
+  const auto* fix = position_fix_.fresh(now, max_age::kPositionFix);
+  if (fix == nullptr) {
+    return false;
+  }
+  if (fix->sequence != used_fix_) {
+    used_fix_ = fix->sequence;
+    const WorldPoint at = local_frame_.to_world({fix->value.latitude_deg, fix->value.longitude_deg});
+    dead_reckoning_.correct(at, has_fix_ ? options_.gps_correction : 1.0);
+    has_fix_ = true;
+  }
+  return true;
+}
+
+}  // namespace lodesman

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The estimator task: where the vehicle is, from what its source of position gives and the AHRS's
+// heading. It publishes nothing while its inputs are stale.
+#pragma once
+
+#include <cstdint>
+
+#include "high_level/estimate/dead_reckoning.h"
+#include "mid_level/base/geodesy.h"
+#include "mid_level/runtime/task.h"
+
+namespace lodesman {
+
+struct EstimatorOptions {
+  PositionSource source = PositionSource::kDeadReckoning;
+  DeadReckoningOptions dead_reckoning;
+  double gps_correction = 0.0;        // [-] (0, 1] share of the way to each fix
+  WorldPoint start;                   // where dead reckoning starts
+  GeoPoint origin;  // of the world frame
+};
+
+class EstimatorTask final : public Task {
+ public:
+  EstimatorTask(Blackboard& board, Role role, const EstimatorOptions& options);
+  void step(Time now) noexcept override;
+
+ private:
+  // False when the source is silent.
+  [[nodiscard]] bool update_position(Time now, Heading heading, int surge_ref) noexcept;
+
+  EstimatorOptions options_;
+  LocalFrame local_frame_;
+  DeadReckoning dead_reckoning_;
+  Reader<Attitude> attitude_;
+  Reader<PositionFix> position_fix_;
+  Reader<WorldTruth> world_truth_;
+  Reader<ThrustApplied> thrust_applied_;
+  Writer<VehicleState> states_;
+  std::uint64_t used_fix_ = 0;
+  bool has_fix_ = false;
+};
+
+}  // namespace lodesman

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "high_level/tasks/planner.h"
+
+#include <utility>
+
+namespace lodesman {
+
+PlannerTask::PlannerTask(Blackboard& board, Role role, PlannerOptions options)
+    : options_{std::move(options)},
+      mission_{options_.mission},
+      replanner_{options_.replanner},
+      orders_{board.operator_command},
+      vehicle_state_{board.vehicle_state},
+      obstacles_{board.sonar_obstacles},
+      sonar_path_{board.sonar_path},
+      requests_{board.path_request, role, "path_request"},
+      plans_{board.plan, role, "plan"},
+      statuses_{board.mission_status, role, "mission_status"} {
+  while (orders_.next() != nullptr) {
+    // Orders from before this program started are not for it.
+  }
+}
+
+void PlannerTask::step(Time now) noexcept {
+  const auto* state = vehicle_state_.fresh(now, max_age::kVehicleState);
+  if (state != nullptr) {
+    poses_.add(state->value);
+  }
+  take_orders(now, state != nullptr);
+  if (state != nullptr) {
+    mission_.advance({{state->value.x_m, state->value.y_m}}, now);
+  }
+  if (mission_.under_way()) {
+    replan(now);
+  }
+  statuses_.publish(mission_.status(), now);
+}
+
+void PlannerTask::take_orders(Time now, bool estimate_is_fresh) noexcept {
+  const bool was_under_way = mission_.under_way();
+  if (options_.start_by_itself && estimate_is_fresh) {
+    options_.start_by_itself = false;
+    mission_.order(OperatorOrder::kStart, now);
+  }
+  while (const auto* order = orders_.next()) {
+    mission_.order(order->value.order, now);
+  }
+  if (mission_.under_way() && !was_under_way) {
+    replanner_.start();
+  }
+}
+
+void PlannerTask::replan(Time now) noexcept {
+  if (const auto* path = sonar_path_.latest(); path != nullptr) {
+    publish(replanner_.answer(now, path->value, options_.sonar_range_m), now);
+  }
+  const auto* frame = obstacles_.fresh(now, max_age::kSonarFrame);
+  if (frame != nullptr) {
+    const auto request =
+        replanner_.request(now, frame->value.frame, frame->value.captured, mission_.goal(), poses_);
+    if (request) {
+      requests_.publish(*request, now);
+    }
+  }
+  publish(replanner_.no_frame(now, frame != nullptr), now);
+}
+
+void PlannerTask::publish(const Plan* plan, Time now) noexcept {
+  if (plan != nullptr) {
+    plans_.publish(*plan, now);
+  }
+}
+
+}  // namespace lodesman

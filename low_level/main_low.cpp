@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// lodesman-low: owns the devices and the segment, and runs the low level's real-time tasks.
+#include <spdlog/spdlog.h>
+
+#include "deploy/cli/run/process_main.h"
+#include "deploy/cli/run/simulated_boat.h"
+#include "mid_level/blackboard/segment.h"
+#include "mid_level/runtime/run_realtime.h"
+
+namespace {
+
+using namespace lodesman;
+
+int run(const cli::ProcessOptions& options) {
+  const TomlDocument configuration = TomlDocument::from_file(options.configuration_file);
+  Scenario scenario = cli::load_named_scenario(options.scenario_file);
+  scenario.seed = options.seed.value_or(scenario.seed);
+  SharedBlackboard board = SharedBlackboard::create(options.segment);
+  if (board.found_dead()) {
+    spdlog::warn("segment {}: an earlier lodesman-low died and left it; made anew",
+                 options.segment);
+  }
+  cli::SimulatedBoat boat{board.writable(), configuration, scenario};
+  if (const std::string missing = set_up_realtime(); !missing.empty()) {
+    spdlog::warn("{}", missing);
+  }
+  const auto tasks = boat.tasks();
+  const RealtimeRunner runner{tasks, board.writable(), Role::kLow};
+  cli::wait_for_stop([] { return false; });
+  return cli::kExitDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cli::block_stop_signals();
+  CLI::App app{"The low level: devices, sonar, path finder and thrusters", "lodesman-low"};
+  cli::ProcessOptions options;
+  cli::add_process_options(app, options);
+  return cli::process_main(app, argc, argv, [&] { return run(options); });
+}

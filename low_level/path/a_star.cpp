@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "low_level/path/a_star.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+#include <limits>
+
+namespace lodesman {
+namespace {
+
+constexpr int kDirections = 8;
+
+// Clockwise from straight ahead, so that odd directions are diagonals.
+struct Step {
+  int column;
+  int row;
+};
+constexpr std::array<Step, kDirections> kSteps{
+    {{0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}}};
+// Eighths of a circle clockwise, in the order in which the tie-break prefers them.
+constexpr std::array<int, kDirections> kTurns{0, 1, -1, 2, -2, 3, -3, 4};
+
+constexpr std::int32_t cost_of(int direction) noexcept {
+  return direction % 2 == 0 ? kStraightCost : kDiagonalCost;
+}
+
+// For each pattern of PassableGrid::around(): a bit a direction in which a step may be taken.
+constexpr std::array<std::uint8_t, 512> make_moves() noexcept {
+  std::array<std::uint8_t, 512> moves{};
+  for (unsigned pattern = 0; pattern < moves.size(); ++pattern) {
+    const auto free = [pattern](int column, int row) {
+      return (pattern >> ((row + 1) * 3 + column + 1) & 1U) != 0;
+    };
+    unsigned allowed = 0;
+    for (unsigned d = 0; d < kDirections; ++d) {
+      const Step step = kSteps[d];
+      if (free(step.column, step.row) && free(step.column, 0) && free(0, step.row)) {
+        allowed |= 1U << d;
+      }
+    }
+    moves[pattern] = static_cast<std::uint8_t>((pattern >> 4 & 1U) != 0 ? allowed : 0);
+  }
+  return moves;
+}
+constexpr std::array<std::uint8_t, 512> kMoves = make_moves();
+
+unsigned moves_from(const PassableGrid& grid, PathPixel pixel) noexcept {
+  return kMoves[grid.around(pixel.column, pixel.row)];
+}
+
+PathPixel after(PathPixel pixel, int direction) noexcept {
+  const Step step = kSteps[static_cast<std::size_t>(direction)];
+  return {static_cast<std::int16_t>(pixel.column + step.column),
+          static_cast<std::int16_t>(pixel.row + step.row)};
+}
+
+}  // namespace
+
+AStar::AStar(SearchLimits limits)
+    : limits_{limits}, nodes_(std::size_t{kViewRows} << kRowShift), path_(kMaxPathPixels) {
+  static_assert(kViewColumns <= 1 << kRowShift);
+}
+
+SearchResult AStar::search(const PassableGrid& grid, PathPixel start, PathPixel goal) noexcept {
+  if (!grid.passable(start.column, start.row)) {
+    return {PathReason::kStartBlocked, 0, 0, {}};
+  }
+  if (!in_fan(goal.column, goal.row)) {
+    return {PathReason::kGoalOutOfView, 0, 0, {}};
+  }
+  if (!grid.passable(goal.column, goal.row)) {
+    return {PathReason::kGoalBlocked, 0, 0, {}};
+  }
+  begin_search(start);
+  push(index_of(goal), 0);
+  SearchResult result = settle(grid, start, goal);
+  if (result.reason == PathReason::kFound) {
+    walk(grid, goal, result);
+  }
+  return result;
+}
+
+void AStar::begin_search(PathPixel start) noexcept {
+  if (open_stamp_ >= std::numeric_limits<std::uint32_t>::max() - 4) {
+    std::fill(nodes_.begin(), nodes_.end(), Node{});  // once in years: all stamps are used up
+    open_stamp_ = 0;
+  }
+  open_stamp_ += 2;
+  heads_.fill(kNone);
+  filled_ = 0;
+  start_ = start;
+}
+
+std::int32_t AStar::estimate(std::int32_t index) const noexcept {
+  const PathPixel pixel = pixel_of(index);
+  const std::int32_t dx = std::abs(pixel.column - start_.column);
+  const std::int32_t dy = std::abs(pixel.row - start_.row);
+  return kStraightCost * std::max(dx, dy) + (kDiagonalCost - kStraightCost) * std::min(dx, dy);
+}
+
+void AStar::push(std::int32_t index, std::int32_t cost) noexcept {
+  const std::uint32_t bucket = static_cast<std::uint32_t>(cost + estimate(index)) % kBuckets;
+  const std::int32_t head = heads_[bucket];
+  node(index) = {open_stamp_, cost, head, kNone};
+  if (head != kNone) {
+    node(head).previous = index;
+  }
+  heads_[bucket] = index;
+  filled_ |= 1U << bucket;
+}
+
+void AStar::remove(std::int32_t index, std::int32_t f) noexcept {
+  const std::uint32_t bucket = static_cast<std::uint32_t>(f) % kBuckets;
+  const Node& gone = node(index);
+  if (gone.next != kNone) {
+    node(gone.next).previous = gone.previous;
+  }
+  if (gone.previous != kNone) {
+    node(gone.previous).next = gone.next;
+    return;
+  }
+  heads_[bucket] = gone.next;
+  if (gone.next == kNone) {
+    filled_ &= ~(1U << bucket);
+  }
+}
+
+void AStar::reach(std::int32_t index, std::int32_t cost) noexcept {
+  const Node& known = node(index);
+  if (known.stamp == open_stamp_) {
+    if (cost < known.cost) {
+      remove(index, known.cost + estimate(index));
+      push(index, cost);
+    }
+  } else if (known.stamp != open_stamp_ + 1) {
+    push(index, cost);
+  }
+}
+
+void AStar::expand(const PassableGrid& grid, std::int32_t index) noexcept {
+  const PathPixel pixel = pixel_of(index);
+  const std::int32_t cost = node(index).cost;
+  for (unsigned moves = moves_from(grid, pixel); moves != 0; moves &= moves - 1) {
+    const int direction = std::countr_zero(moves);
+    reach(index_of(after(pixel, direction)), cost + cost_of(direction));
+  }
+}
+
+// Takes pixels in order of f until the start's cost to the goal is known and nothing in the open
+// list could lie on another path of that cost.
+SearchResult AStar::settle(const PassableGrid& grid, PathPixel start, PathPixel goal) noexcept {
+  SearchResult result;
+  const std::int32_t start_index = index_of(start);
+  std::int32_t f = estimate(index_of(goal));
+  std::int32_t found_cost = std::numeric_limits<std::int32_t>::max();
+  while (filled_ != 0) {
+    const auto base = static_cast<std::uint32_t>(f) % kBuckets;
+    f += std::countr_zero(std::rotr(filled_, static_cast<int>(base)));
+    if (f > found_cost) {
+      break;
+    }
+    if (result.expansions >= limits_.max_expansions) {
+      result.reason = PathReason::kLimit;
+      return result;
+    }
+    const std::int32_t index = heads_[static_cast<std::uint32_t>(f) % kBuckets];
+    remove(index, f);
+    node(index).stamp = open_stamp_ + 1;
+    ++result.expansions;
+    if (index == start_index) {
+      found_cost = node(index).cost;
+    } else {
+      expand(grid, index);
+    }
+  }
+  if (found_cost != std::numeric_limits<std::int32_t>::max()) {
+    result.reason = PathReason::kFound;
+    result.cost_10_14 = found_cost;
+  }
+  return result;
+}
+
+std::int32_t AStar::cost_to_goal(PathPixel pixel) const noexcept {
+  const Node& known = nodes_[static_cast<std::size_t>(index_of(pixel))];
+  return known.stamp >= open_stamp_ ? known.cost : kNone;
+}
+
+// From the start, always to a pixel from which the goal costs just a step less.
+void AStar::walk(const PassableGrid& grid, PathPixel goal, SearchResult& result) noexcept {
+  PathPixel pixel = start_;
+  std::size_t count = 0;
+  path_[count++] = pixel;
+  int heading = 0;
+  while (index_of(pixel) != index_of(goal)) {
+    if (count == path_.size()) {
+      result = {PathReason::kLimit, 0, result.expansions, {}};
+      return;
+    }
+    const unsigned moves = moves_from(grid, pixel);
+    const std::int32_t cost = cost_to_goal(pixel);
+    // One of the directions fits: the pixel's cost was reached from such a neighbour.
+    for (const int turn : kTurns) {
+      const int direction = (heading + turn + kDirections) % kDirections;
+      if ((moves >> direction & 1U) != 0 &&
+          cost_to_goal(after(pixel, direction)) == cost - cost_of(direction)) {
+        pixel = after(pixel, direction);
+        heading = direction;
+        break;
+      }
+    }
+    path_[count++] = pixel;
+  }
+  result.path = std::span<const PathPixel>{path_}.first(count);
+}
+
+}  // namespace lodesman

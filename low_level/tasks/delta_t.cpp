@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "low_level/tasks/delta_t.h"
+
+#include <utility>
+
+#include "low_level/sonar/known_obstacles.h"
+
+namespace lodesman {
+
+DeltaTTask::DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaTOptions options)
+    : sonar_{sonar},
+      options_{std::move(options)},
+      segmenter_{options_.segmentation},
+      vehicle_state_{board.vehicle_state},
+      mission_status_{board.mission_status},
+      pings_{board.sonar_ping, role, "sonar_ping"},
+      obstacles_{board.sonar_obstacles, role, "sonar_obstacles"} {}
+
+void DeltaTTask::step(Time now) noexcept {
+  if (sonar_.poll(now, *ping_) != ReadStatus::kFresh) {
+    return;
+  }
+  pings_.publish(*ping_, now);
+  if (options_.known_scene) {
+    if (!see_known_scene(now)) {
+      return;
+    }
+  } else {
+    segmenter_.segment(*ping_, *seen_);
+  }
+  if (options_.own_zones) {
+    make_own_zones(*options_.own_zones, *seen_);
+  }
+  obstacles_.publish(*seen_, now);
+}
+
+bool DeltaTTask::see_known_scene(Time now) noexcept {
+  const auto* state = vehicle_state_.fresh(now, max_age::kVehicleState);
+  if (state == nullptr) {
+    return false;
+  }
+  const auto* mission = mission_status_.latest();
+  const bool started = mission != nullptr && mission->value.started != Time{};
+  const VehicleState& at = state->value;
+  KnownView view;
+  view.frame = ping_->number;
+  view.captured = at.valid_at;  // the pose they are drawn at is the pose they belong to
+  view.scenario_time_s = started ? to_seconds(at.valid_at - mission->value.started) : 0.0;
+  view.pose = {{{at.x_m, at.y_m}}, Heading::clockwise_from_y_rad(at.heading_rad)};
+  view.range_m = ping_->range_m;
+  see_known_obstacles(*options_.known_scene, view, *seen_);
+  return true;
+}
+
+}  // namespace lodesman

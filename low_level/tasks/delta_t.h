@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The DeltaT task: takes pings from the sonar, publishes them, and publishes the obstacles in them;
+// or, for a known scene, draws its obstacles at the estimated pose as the paper did in its tank.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "drivers/hal/devices.h"
+#include "low_level/sonar/protection.h"
+#include "low_level/sonar/segmentation.h"
+#include "mid_level/messages/moving_obstacle.h"
+#include "mid_level/runtime/task.h"
+
+namespace lodesman {
+
+struct DeltaTOptions {
+  SegmentationOptions segmentation;
+  std::optional<OwnZones> own_zones;  // empty: the protection zones that came with the obstacles
+  // The scenario's obstacles, for the known-obstacle source; empty: obstacles come from echoes.
+  std::optional<std::vector<MovingObstacle>> known_scene;
+};
+
+class DeltaTTask final : public Task {
+ public:
+  DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaTOptions options);
+  void step(Time now) noexcept override;
+
+ private:
+  // False when the estimate is stale: then nothing is known of where the obstacles are.
+  [[nodiscard]] bool see_known_scene(Time now) noexcept;
+
+  ImagingSonar& sonar_;
+  DeltaTOptions options_;
+  Segmenter segmenter_;
+  Reader<VehicleState> vehicle_state_;
+  Reader<MissionStatus> mission_status_;
+  Writer<SonarPing> pings_;
+  Writer<SonarObstacles> obstacles_;
+  // Too large for a stack.
+  std::unique_ptr<SonarPing> ping_ = std::make_unique<SonarPing>();
+  std::unique_ptr<SonarObstacles> seen_ = std::make_unique<SonarObstacles>();
+};
+
+}  // namespace lodesman

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "low_level/tasks/path_finder.h"
+
+#include <limits>
+
+#include "mid_level/base/stopwatch.h"
+
+namespace lodesman {
+
+PathFinderTask::PathFinderTask(Blackboard& board, Role role, double range_m)
+    : range_m_{range_m},
+      requests_{board.path_request},
+      obstacles_{board.sonar_obstacles},
+      paths_{board.sonar_path, role, "sonar_path"} {
+  // What was asked before this task existed is nobody's question any more.
+  if (const auto* old = requests_.latest(); old != nullptr) {
+    answered_ = old->sequence;
+  }
+}
+
+void PathFinderTask::step(Time now) noexcept {
+  const auto* request = requests_.latest();
+  if (request == nullptr || request->sequence == answered_) {
+    return;
+  }
+  answered_ = request->sequence;
+  find(request->value);
+  paths_.publish(*path_, now);
+}
+
+void PathFinderTask::find(const PathRequest& request) noexcept {
+  const Stopwatch stopwatch;
+  const auto* newest = obstacles_.latest();
+  // Frames are numbered as they are published, so the one asked for is a few places back.
+  while (newest != nullptr && newest->value.frame > request.frame) {
+    newest = obstacles_.at(newest->sequence - 1);
+  }
+  if (newest == nullptr || newest->value.frame != request.frame) {
+    path_->request = request.id;
+    path_->frame = request.frame;
+    path_->reason = PathReason::kNoFrame;
+    path_->cost_10_14 = 0;
+    path_->expansions = 0;
+    path_->pixel_count = 0;
+  } else {
+    finder_.find_path(newest->value, request, range_m_, *path_);
+  }
+  const auto took_ns = stopwatch.elapsed().count();
+  constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
+  path_->plan_time_ns = static_cast<std::uint32_t>(took_ns < kMost ? took_ns : kMost);
+}
+
+}  // namespace lodesman

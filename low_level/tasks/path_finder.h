@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The PathFinder task: answers each path request once, in the sonar frame that it names.
+#pragma once
+
+#include <memory>
+
+#include "low_level/path/path_finder.h"
+#include "mid_level/runtime/task.h"
+
+namespace lodesman {
+
+class PathFinderTask final : public Task {
+ public:
+  // range_m: the sonar's range setting [m] > 0, the radius of the sonar view.
+  PathFinderTask(Blackboard& board, Role role, double range_m);
+  void step(Time now) noexcept override;
+
+ private:
+  void find(const PathRequest& request) noexcept;
+
+  double range_m_;
+  PathFinder finder_;
+  Reader<PathRequest> requests_;
+  Reader<SonarObstacles> obstacles_;
+  Writer<SonarPath> paths_;
+  std::uint64_t answered_ = 0;
+  std::unique_ptr<SonarPath> path_ = std::make_unique<SonarPath>();
+};
+
+}  // namespace lodesman

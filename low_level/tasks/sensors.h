@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The AHRS and position tasks: publish what the devices say, each sample once.
+#pragma once
+
+#include "drivers/hal/devices.h"
+#include "mid_level/runtime/task.h"
+
+namespace lodesman {
+
+class AhrsTask final : public Task {
+ public:
+  AhrsTask(Blackboard& board, Role role, HeadingSensor& sensor)
+      : sensor_{sensor}, attitudes_{board.attitude, role, "attitude"} {}
+  void step(Time now) noexcept override;
+
+ private:
+  HeadingSensor& sensor_;
+  Writer<Attitude> attitudes_;
+};
+
+class PositionTask final : public Task {
+ public:
+  PositionTask(Blackboard& board, Role role, PositionSensor& sensor)
+      : sensor_{sensor}, fixes_{board.position_fix, role, "position_fix"} {}
+  void step(Time now) noexcept override;
+
+ private:
+  PositionSensor& sensor_;
+  Writer<PositionFix> fixes_;
+};
+
+}  // namespace lodesman

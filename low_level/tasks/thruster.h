@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Thruster task: turns the helm's references into thrust commands (eqs 13-14) and hands them to
+// the box; neutral whenever the helm has fallen silent, in every mode.
+#pragma once
+
+#include "drivers/hal/devices.h"
+#include "mid_level/runtime/task.h"
+
+namespace lodesman {
+
+class ThrusterTask final : public Task {
+ public:
+  ThrusterTask(Blackboard& board, Role role, ThrusterPair& thrusters)
+      : thrusters_{thrusters},
+        helm_{board.helm_command},
+        applied_{board.thrust_applied, role, "thrust_applied"} {}
+
+  void step(Time now) noexcept override;
+  void enter_safe_state(Time now) noexcept override;
+
+ private:
+  ThrusterPair& thrusters_;
+  Reader<HelmCommand> helm_;
+  Writer<ThrustApplied> applied_;
+};
+
+}  // namespace lodesman

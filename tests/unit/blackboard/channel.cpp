@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mid_level/blackboard/channel.h"
+
+#include <atomic>
+#include <numeric>
+#include <thread>
+
+#include "tests/support/catch.h"
+
+using namespace lodesman;
+
+namespace {
+
+// Large enough to be torn: whole only if every word is the same.
+struct Block {
+  std::array<std::uint64_t, 512> words{};
+  static constexpr auto fields() noexcept { return std::tuple{field("words", &Block::words)}; }
+
+  static Block of(std::uint64_t value) {
+    Block block;
+    block.words.fill(value);
+    return block;
+  }
+  [[nodiscard]] bool whole() const {
+    for (const auto word : words) {
+      if (word != words[0]) {
+        return false;
+      }
+    }
+    return true;
+  }
+};
+
+struct Tail {
+  std::uint32_t count = 0;
+  std::array<std::uint8_t, 100> bytes{};
+  [[nodiscard]] std::size_t used_bytes() const noexcept { return offsetof(Tail, bytes) + count; }
+  static constexpr auto fields() noexcept {
+    return std::tuple{field("count", &Tail::count), field("bytes", &Tail::bytes, &Tail::count)};
+  }
+};
+
+Time at(std::int64_t ns) { return Time{Duration{ns}}; }
+
+}  // namespace
+
+TEST_CASE("channel: nothing is there before the first publication", "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Block, 2>>();
+  Reader<Block> reader{*channel};
+  CHECK(reader.latest() == nullptr);
+  CHECK(reader.next() == nullptr);
+  CHECK(reader.at(1) == nullptr);
+  CHECK(reader.fresh(at(0), Duration{10}) == nullptr);
+}
+
+TEST_CASE("channel: latest gives the newest value with its stamp and sequence",
+          "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Block, 3>>();
+  Writer<Block> writer{*channel, Role::kLow, "blocks"};
+  Reader<Block> reader{*channel};
+  for (std::uint64_t i = 1; i <= 7; ++i) {
+    writer.publish(Block::of(i), at(static_cast<std::int64_t>(10 * i)));
+    const auto* newest = reader.latest();
+    REQUIRE(newest != nullptr);
+    CHECK(newest->value.words[511] == i);
+    CHECK(newest->stamp == at(static_cast<std::int64_t>(10 * i)));
+    CHECK(newest->sequence == i);
+  }
+}
+
+TEST_CASE("channel: fresh gives nothing older than its reader tolerates",
+          "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Block, 2>>();
+  Writer<Block> writer{*channel, Role::kLow, "blocks"};
+  Reader<Block> reader{*channel};
+  writer.publish(Block::of(1), at(100));
+  CHECK(reader.fresh(at(150), Duration{50}) != nullptr);
+  CHECK(reader.fresh(at(151), Duration{50}) == nullptr);
+}
+
+TEST_CASE("channel: next gives every value in order, and counts those it came too late for",
+          "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Block, 4>>();
+  Writer<Block> writer{*channel, Role::kLow, "blocks"};
+  Reader<Block> reader{*channel};
+  for (std::uint64_t i = 1; i <= 3; ++i) {
+    writer.publish(Block::of(i), at(0));
+  }
+  for (std::uint64_t i = 1; i <= 3; ++i) {
+    CHECK(reader.next()->sequence == i);
+  }
+  CHECK(reader.next() == nullptr);
+  CHECK(reader.missed() == 0);
+  for (std::uint64_t i = 4; i <= 10; ++i) {
+    writer.publish(Block::of(i), at(0));
+  }
+  CHECK(reader.next()->sequence == 7);
+  CHECK(reader.missed() == 3);
+}
+
+TEST_CASE("channel: at finds what the ring still has", "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Block, 4>>();
+  Writer<Block> writer{*channel, Role::kLow, "blocks"};
+  Reader<Block> reader{*channel};
+  for (std::uint64_t i = 1; i <= 6; ++i) {
+    writer.publish(Block::of(i), at(0));
+  }
+  CHECK(reader.at(2) == nullptr);
+  CHECK(reader.at(7) == nullptr);
+  REQUIRE(reader.at(4) != nullptr);
+  CHECK(reader.at(4)->value.words[0] == 4);
+}
+
+TEST_CASE("channel: of a counted tail only what is used is copied", "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Tail, 2>>();
+  Writer<Tail> writer{*channel, Role::kLow, "tails"};
+  Reader<Tail> reader{*channel};
+  for (std::uint32_t count : {0U, 1U, 3U, 4U, 5U, 11U, 100U}) {
+    Tail tail;
+    tail.count = count;
+    std::iota(tail.bytes.begin(), tail.bytes.end(), std::uint8_t{1});
+    writer.publish(tail, at(0));
+    const auto* got = reader.latest();
+    REQUIRE(got->value.count == count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      CHECK(got->value.bytes[i] == i + 1);
+    }
+  }
+}
+
+TEST_CASE("channel: a second writer is refused until the first is gone",
+          "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Block, 2>>();
+  {
+    Writer<Block> first{*channel, Role::kLow, "blocks"};
+    first.publish(Block::of(1), at(0));
+    CHECK_THROWS_WITH((Writer<Block>{*channel, Role::kHigh, "blocks"}),
+                      "channel blocks already has a writer");
+  }
+  Writer<Block> second{*channel, Role::kHigh, "blocks"};
+  second.publish(Block::of(2), at(0));
+  Reader<Block> reader{*channel};
+  CHECK(reader.latest()->sequence == 2);
+}
+
+TEST_CASE("channel: the claim of a dead writer can be freed, and its last value stands",
+          "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Block, 2>>();
+  channel->head.writer.store(static_cast<std::uint32_t>(Role::kHigh));
+  // It died while writing value 1: the version is odd and nothing was announced.
+  channel->slots[1].version.store(1);
+  channel->release_claim_of(Role::kLow);
+  CHECK_THROWS((Writer<Block>{*channel, Role::kHigh, "blocks"}));
+  channel->release_claim_of(Role::kHigh);
+  Writer<Block> writer{*channel, Role::kHigh, "blocks"};
+  Reader<Block> reader{*channel};
+  CHECK(reader.latest() == nullptr);
+  writer.publish(Block::of(9), at(0));
+  CHECK(reader.latest()->value.words[0] == 9);
+}
+
+TEST_CASE("channel: concurrent readers see whole values in order", "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Block, 3>>();
+  std::atomic<bool> done{false};
+  std::atomic<std::uint64_t> torn{0};
+  std::atomic<std::uint64_t> backwards{0};
+  std::atomic<std::uint64_t> seen{0};
+  const auto watch = [&](bool one_by_one) {
+    Reader<Block> reader{*channel};
+    std::uint64_t last = 0;
+    while (!done) {
+      const auto* got = one_by_one ? reader.next() : reader.latest();
+      if (got == nullptr) {
+        continue;
+      }
+      torn += got->value.whole() && got->value.words[0] == got->sequence ? 0 : 1;
+      backwards += got->sequence < last ? 1 : 0;
+      last = got->sequence;
+      ++seen;
+    }
+  };
+  {
+    std::jthread a{watch, true};
+    std::jthread b{watch, false};
+    Writer<Block> writer{*channel, Role::kLow, "blocks"};
+    for (std::uint64_t i = 1; i <= 50000; ++i) {
+      writer.publish(Block::of(i), at(0));
+    }
+    while (seen < 100) {
+      writer.publish(Block::of(writer.sequence() + 1), at(0));
+    }
+    done = true;
+  }
+  CHECK(torn == 0);
+  CHECK(backwards == 0);
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "high_level/guidance/replanner.h"
+
+#include <memory>
+
+#include "mid_level/messages/sonar_view.h"
+#include "tests/support/catch.h"
+
+using namespace lodesman;
+
+namespace {
+
+Time s(double seconds) { return Time{from_seconds(seconds)}; }
+
+ReplannerOptions paper() { return {from_seconds(1.6), from_seconds(0.5), 1.3, from_seconds(1e6)}; }
+
+// A boat that sails north at 1 m/s along x = 3, heading north, for 20 s.
+PoseHistory northward() {
+  PoseHistory poses;
+  for (int i = 0; i <= 200; ++i) {
+    VehicleState state;
+    state.valid_at = s(0.1 * i);
+    state.x_m = 3.0;
+    state.y_m = 0.1 * i;
+    poses.add(state);
+  }
+  return poses;
+}
+
+std::unique_ptr<SonarPath> found(const PathRequest& request) {
+  auto path = std::make_unique<SonarPath>();
+  path->request = request.id;
+  path->frame = request.frame;
+  path->reason = PathReason::kFound;
+  for (int i = 0; i <= 50; ++i) {
+    path->pixels[path->pixel_count++] = {static_cast<std::int16_t>(kApexColumn),
+                                         static_cast<std::int16_t>(kApexRow - i)};
+  }
+  return path;
+}
+
+std::unique_ptr<SonarPath> refused(const PathRequest& request, PathReason reason) {
+  auto path = std::make_unique<SonarPath>();
+  path->request = request.id;
+  path->reason = reason;
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("pose history: poses between two estimates are interpolated, others unknown",
+          "[high_level][guidance]") {
+  const PoseHistory poses = northward();
+  CHECK(poses.at(s(15.05))->p_WV.xy_m.y() == Approx(15.05));
+  CHECK(poses.at(s(20.05))->p_WV.xy_m.y() == Approx(20.0));
+  CHECK_FALSE(poses.at(s(20.2)));
+  CHECK_FALSE(poses.at(s(1.0)));  // forgotten
+  CHECK_FALSE(PoseHistory{}.at(s(1.0)));
+}
+
+TEST_CASE("replanner: the goal is asked for in the vehicle frame at the frame's capture",
+          "[high_level][guidance]") {
+  Replanner replanner{paper()};
+  const auto request = replanner.request(s(20), 7, s(18), {{4.0, 28.0}}, northward());
+  REQUIRE(request);
+  CHECK(request->frame == 7);
+  CHECK(request->goal_x_m == Approx(1.0));
+  CHECK(request->goal_y_m == Approx(10.0));
+}
+
+TEST_CASE("replanner: a path is taken into the world at the pose of its frame, not the newest",
+          "[high_level][guidance]") {
+  Replanner replanner{paper()};
+  const auto request = replanner.request(s(20), 7, s(18), {{3.0, 21.0}}, northward());
+  const Plan* plan = replanner.answer(s(20.1), *found(*request), 30.0);
+  REQUIRE(plan != nullptr);
+  CHECK(plan->source == WaypointSource::kCurrent);
+  REQUIRE(plan->waypoint_count == 3);
+  CHECK(plan->waypoints[0].x_m == Approx(3.0));
+  CHECK(plan->waypoints[0].y_m == Approx(18.0 + 1.3).margin(0.06));
+  CHECK(plan->waypoints[2].y_m == Approx(21.0));
+}
+
+TEST_CASE("replanner: it asks once a period, one question at a time, each frame once",
+          "[high_level][guidance]") {
+  Replanner replanner{paper()};
+  const PoseHistory poses = northward();
+  const WorldPoint goal{{3.0, 30.0}};
+  const auto first = replanner.request(s(18.0), 1, s(18.0), goal, poses);
+  REQUIRE(first);
+  CHECK_FALSE(replanner.request(s(19.7), 2, s(19.6), goal, poses));  // no answer yet
+  (void)replanner.answer(s(18.1), *found(*first), 30.0);
+  CHECK_FALSE(replanner.request(s(19.5), 2, s(19.5), goal, poses));  // too early
+  CHECK_FALSE(replanner.request(s(19.7), 1, s(18.0), goal, poses));  // planned in already
+  const auto second = replanner.request(s(19.65), 2, s(19.6), goal, poses);
+  REQUIRE(second);
+  CHECK(second->id == first->id + 1);
+}
+
+TEST_CASE("replanner: without a path the previous waypoints stand (step 12.4)",
+          "[high_level][guidance]") {
+  Replanner replanner{paper()};
+  const PoseHistory poses = northward();
+  const auto first = replanner.request(s(17.0), 1, s(17.0), {{3.0, 20.0}}, poses);
+  const Plan before = *replanner.answer(s(17.1), *found(*first), 30.0);
+  const auto second = replanner.request(s(19.0), 2, s(19.0), {{3.0, 20.0}}, poses);
+  const Plan* after = replanner.answer(s(19.1), *refused(*second, PathReason::kStartBlocked), 30.0);
+  REQUIRE(after != nullptr);
+  CHECK(after->reason == PathReason::kStartBlocked);
+  CHECK(after->source == WaypointSource::kPrevious);
+  CHECK(after->path_id == before.id);
+  CHECK(after->waypoint_count == before.waypoint_count);
+}
+
+TEST_CASE("replanner: previous waypoints have an age limit where one is set",
+          "[high_level][guidance]") {
+  ReplannerOptions options = paper();
+  options.previous_path_max_age = from_seconds(1.0);
+  Replanner replanner{options};
+  const PoseHistory poses = northward();
+  const auto first = replanner.request(s(17.0), 1, s(17.0), {{3.0, 20.0}}, poses);
+  (void)replanner.answer(s(17.1), *found(*first), 30.0);
+  const auto second = replanner.request(s(19.0), 2, s(19.0), {{3.0, 20.0}}, poses);
+  const Plan* after = replanner.answer(s(19.1), *refused(*second, PathReason::kNoPath), 30.0);
+  REQUIRE(after != nullptr);
+  CHECK(after->source == WaypointSource::kNone);
+  CHECK(after->waypoint_count == 0);
+}
+
+TEST_CASE("replanner: an answer to another question is none", "[high_level][guidance]") {
+  Replanner replanner{paper()};
+  const auto request = replanner.request(s(18), 1, s(18), {{3.0, 20.0}}, northward());
+  PathRequest other = *request;
+  other.id += 5;
+  CHECK(replanner.answer(s(18.1), *found(other), 30.0) == nullptr);
+  CHECK(replanner.answer(s(18.1), *found(*request), 30.0) != nullptr);
+  CHECK(replanner.answer(s(18.2), *found(*request), 30.0) == nullptr);
+}
+
+TEST_CASE("replanner: a blind sonar or a silent PathFinder leaves nothing to follow, said once",
+          "[high_level][guidance]") {
+  Replanner replanner{paper()};
+  const PoseHistory poses = northward();
+  const auto request = replanner.request(s(18), 1, s(18), {{3.0, 20.0}}, poses);
+  CHECK(replanner.no_frame(s(18.1), true) == nullptr);
+  const Plan* given_up = replanner.no_frame(s(18.6), true);
+  REQUIRE(given_up != nullptr);
+  CHECK(given_up->reason == PathReason::kNoFrame);
+  CHECK(given_up->waypoint_count == 0);
+  CHECK(replanner.no_frame(s(18.7), false) == nullptr);
+  const auto again = replanner.request(s(19.7), 2, s(19.6), {{3.0, 20.0}}, poses);
+  REQUIRE(again);
+  CHECK(again->id > request->id + 1);
+  CHECK(replanner.answer(s(19.8), *found(*again), 30.0)->source == WaypointSource::kCurrent);
+  CHECK(replanner.no_frame(s(19.9), false) != nullptr);
+}
