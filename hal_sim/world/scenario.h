@@ -14,6 +14,8 @@
 #include "mid_level/base/config/toml_document.h"
 #include "mid_level/base/frames.h"
 #include "mid_level/messages/moving_obstacle.h"
+#include "mid_level/messages/sonar.h"
+#include "mid_level/messages/vehicle.h"
 
 namespace lodesman {
 
@@ -31,8 +33,6 @@ struct ScenarioEnvironment {
   double origin_latitude_deg = 35.0;
   double origin_longitude_deg = 139.0;
 };
-
-enum class PositionSource : std::uint8_t { kTruth, kGps, kDeadReckoning };
 
 struct ScenarioPosition {
   PositionSource source = PositionSource::kTruth;  // what the estimator is fed

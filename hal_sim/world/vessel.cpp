@@ -66,7 +66,7 @@ struct Thrust {
 
 }  // namespace
 
-VesselParameters read_vessel(const TomlTable& vessel) {
+VesselParameters read_vessel_parameters(const TomlTable& vessel) {
   const Range positive = Range::above(0.0, 1e6);
   const Range not_negative = Range::between(0.0, 1e6);
   VesselParameters p;
@@ -91,7 +91,7 @@ VesselParameters read_vessel(const TomlTable& vessel) {
 
 VesselParameters load_vessel(const std::filesystem::path& path) {
   const TomlDocument document = TomlDocument::from_file(path);
-  const VesselParameters parameters = read_vessel(document.root().table("vessel"));
+  const VesselParameters parameters = read_vessel_parameters(document.root().table("vessel"));
   document.require_all_keys_read();
   return parameters;
 }

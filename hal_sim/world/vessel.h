@@ -32,7 +32,7 @@ struct VesselParameters {
 };
 
 // Of a [vessel] table. Throws StartupError.
-[[nodiscard]] VesselParameters read_vessel(const TomlTable& vessel);
+[[nodiscard]] VesselParameters read_vessel_parameters(const TomlTable& vessel);
 [[nodiscard]] VesselParameters load_vessel(const std::filesystem::path& path);
 
 // Thrust of one thruster: none at 127 and 128, otherwise with the square of the distance to 128.

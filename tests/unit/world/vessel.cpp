@@ -235,10 +235,10 @@ TEST_CASE("vessel: a time that is not positive moves nothing", "[hal_sim][vessel
 
 TEST_CASE("vessel: a missing or unknown value is refused", "[hal_sim][vessel]") {
   const TomlDocument empty = TomlDocument::from_text("[vessel]\nmass_kg = 95.0\n", "v.toml");
-  CHECK_THROWS_WITH(read_vessel(empty.root().table("vessel")),
+  CHECK_THROWS_WITH(read_vessel_parameters(empty.root().table("vessel")),
                     "v.toml:1: vessel.yaw_inertia_kg_m2: missing");
   const TomlDocument heavy = TomlDocument::from_text("[vessel]\nmass_kg = 0.0\n", "v.toml");
-  CHECK_THROWS_AS(read_vessel(heavy.root().table("vessel")), StartupError);
+  CHECK_THROWS_AS(read_vessel_parameters(heavy.root().table("vessel")), StartupError);
 }
 
 }  // namespace
