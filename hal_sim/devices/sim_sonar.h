@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// A simulated multibeam sonar at the vehicle's origin, looking ahead: in each beam a clean echo of
+// the nearest surface and nothing behind it. Polled by the one thread that owns it.
+#pragma once
+
+#include <vector>
+
+#include "drivers/hal/devices.h"
+#include "hal_sim/devices/sample_feed.h"
+#include "hal_sim/world/scenario.h"
+
+namespace lodesman {
+
+// Each beam is the ray along its centre. Noise other than `none` is not simulated yet.
+class SimSonar final : public ImagingSonar {
+ public:
+  // The link must outlive the sonar.
+  SimSonar(const Scenario& scenario, const SimLink& link);
+  [[nodiscard]] ReadStatus poll(Time now, SonarPing& out) noexcept override;
+
+ private:
+  void listen(const WorldSample& world, SonarPing& out) noexcept;
+
+  SampleFeed feed_;
+  ScenarioSonar settings_;
+  std::vector<MovingObstacle> obstacles_;
+  std::vector<Obstacle> scene_;  // those that exist at the ping; room for all was made once
+  std::uint64_t pings_ = 0;
+};
+
+}  // namespace lodesman

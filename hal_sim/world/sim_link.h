@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The wire between the world and the simulated devices, inside one process: what the sensors can
+// sense, and what the thruster box was last told. Each end is held by one thread, through a Reader
+// or a Writer of its own.
+#pragma once
+
+#include <cstdint>
+
+#include "drivers/hal/devices.h"
+#include "mid_level/base/frames.h"
+#include "mid_level/blackboard/channel.h"
+#include "mid_level/messages/fields.h"
+
+namespace lodesman {
+
+// Written by the world task at every step (50 Hz); read by each simulated device.
+struct WorldSample {
+  Time stamp{};                  // [ns] the time this state belongs to
+  std::uint8_t started = 0;      // [-] 1 once a mission has started: faults act from then on
+  double scenario_time_s = 0.0;  // [s] since the mission's start; 0 before it
+  double x_m = 0.0;              // [m] [world]
+  double y_m = 0.0;              // [m] [world]
+  double heading_rad = 0.0;      // [rad] [-pi, pi]
+  double surge_m_s = 0.0;        // [m/s] over ground, along the heading
+  double sway_m_s = 0.0;         // [m/s] over ground, to starboard
+  double yaw_rate_rad_s = 0.0;   // [rad/s] clockwise positive
+
+  [[nodiscard]] VehiclePose pose() const noexcept {
+    return {{{x_m, y_m}}, Heading::clockwise_from_y_rad(heading_rad)};
+  }
+
+  static constexpr auto fields() noexcept {
+    using W = WorldSample;
+    return std::tuple{field("stamp", &W::stamp),
+                      field("started", &W::started),
+                      field("scenario_time_s", &W::scenario_time_s),
+                      field("x_m", &W::x_m),
+                      field("y_m", &W::y_m),
+                      field("heading_rad", &W::heading_rad),
+                      field("surge_m_s", &W::surge_m_s),
+                      field("sway_m_s", &W::sway_m_s),
+                      field("yaw_rate_rad_s", &W::yaw_rate_rad_s)};
+  }
+};
+
+// Written by the simulated thruster box at each command that it took; read by the world task.
+struct SimThrust {
+  std::uint8_t left = 128;   // [-] [0, 255] 127 and 128 stop
+  std::uint8_t right = 128;  // [-] [0, 255]
+
+  static constexpr auto fields() noexcept {
+    return std::tuple{field("left", &SimThrust::left), field("right", &SimThrust::right)};
+  }
+};
+
+struct SimLink {
+  Channel<WorldSample, 64> world;
+  Channel<SimThrust, 8> thrust;
+};
+
+// The box stops both thrusters by itself when no command came for longer than this (ours: the
+// longest that is sensible for the boxes the drivers know).
+inline constexpr Duration kBoxTimeOut = std::chrono::milliseconds{1000};
+
+// What the thrusters do at `now`: the last command taken, or neutral after the box's time-out.
+[[nodiscard]] inline ThrustCommand thrust_at(Reader<SimThrust>& box, Time now) noexcept {
+  const Stamped<SimThrust>* taken = box.fresh(now, kBoxTimeOut);
+  return taken == nullptr ? kNeutralThrust : ThrustCommand{taken->value.left, taken->value.right};
+}
+
+}  // namespace lodesman

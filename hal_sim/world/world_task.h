@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The task that moves the simulated world: from the thrust that the simulated box applies to the
+// truth on the blackboard and the sample that the simulated devices sense. One thread steps it.
+#pragma once
+
+#include "hal_sim/world/sim_link.h"
+#include "hal_sim/world/world.h"
+#include "mid_level/blackboard/blackboard.h"
+#include "mid_level/runtime/task.h"
+
+namespace lodesman {
+
+// Until the mission starts the boat lies at its start and the scenario's time stands at 0; from
+// then on both go on for good, also after the mission's end. A new start sets the scenario's time,
+// and with it obstacles and faults, back to 0; the boat stays where it is.
+class WorldTask final : public Task {
+ public:
+  // Blackboard and link must outlive the task. Throws StartupError when either has a world already.
+  WorldTask(const Scenario& scenario, const VesselParameters& vessel, Blackboard& blackboard,
+            SimLink& link);
+
+  void step(Time now) noexcept override;
+
+  [[nodiscard]] const WorldTruth& truth() const noexcept { return world_.truth(); }
+
+ private:
+  // After a gap (the machine slept) no more than this is caught up with.
+  static constexpr Duration kLongestStep = std::chrono::seconds{1};
+
+  void publish(Time now, bool started) noexcept;
+
+  World world_;
+  Reader<MissionStatus> mission_status_;
+  Reader<SimThrust> box_;
+  Writer<WorldTruth> truth_out_;
+  Writer<WorldSample> sample_out_;
+  Time stepped_to_{};
+};
+
+}  // namespace lodesman
