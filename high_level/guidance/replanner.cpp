@@ -51,7 +51,8 @@ std::optional<VehiclePose> PoseHistory::at(Time at) const noexcept {
   return std::nullopt;
 }
 
-void Replanner::start() noexcept {
+void Replanner::start(Time now) noexcept {
+  started_ = now;
   pending_.reset();
   asked_.reset();
   planned_frame_ = 0;
@@ -105,7 +106,8 @@ const Plan* Replanner::no_frame(Time now, bool frame_is_fresh) noexcept {
   if (given_up) {
     pending_.reset();
   }
-  if ((frame_is_fresh && !given_up) || blind_) {
+  const bool just_started = !asked_ && now - started_ <= options_.answer_patience;
+  if ((frame_is_fresh && !given_up) || just_started || blind_) {
     return nullptr;
   }
   blind_ = true;

@@ -43,7 +43,7 @@ class Replanner {
   explicit Replanner(const ReplannerOptions& options) noexcept : options_{options} {}
 
   // Forgets plans and goal: a mission starts.
-  void start() noexcept;
+  void start(Time now) noexcept;
 
   // Steps 2-4 and 9: the request for this frame, if one is due. frame_captured belongs to `frame`.
   [[nodiscard]] std::optional<PathRequest> request(Time now, std::uint64_t frame,
@@ -54,7 +54,8 @@ class Replanner {
   [[nodiscard]] const Plan* answer(Time now, const SonarPath& path, double range_m) noexcept;
 
   // The plan when no sonar frame is fresh, or the pending request is given up: nothing is known, so
-  // nothing is followed. Empty while there is still hope, and when that was said already.
+  // nothing is followed. Empty while there is still hope, and when that was said already; the
+  // first frame of a mission is waited for as long as an answer is.
   [[nodiscard]] const Plan* no_frame(Time now, bool frame_is_fresh) noexcept;
 
  private:
@@ -72,6 +73,7 @@ class Replanner {
   ReplannerOptions options_;
   std::optional<Pending> pending_;
   std::optional<Time> asked_;
+  Time started_{};
   std::uint64_t planned_frame_ = 0;
   std::uint64_t next_id_ = 1;
   bool blind_ = false;

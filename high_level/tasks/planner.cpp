@@ -46,7 +46,7 @@ void PlannerTask::take_orders(Time now, bool estimate_is_fresh) noexcept {
     mission_.order(order->value.order, now);
   }
   if (mission_.under_way() && !was_under_way) {
-    replanner_.start();
+    replanner_.start(now);
   }
 }
 

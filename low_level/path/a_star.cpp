@@ -18,9 +18,6 @@ struct Step {
 };
 constexpr std::array<Step, kDirections> kSteps{
     {{0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}}};
-// Eighths of a circle clockwise, in the order in which the tie-break prefers them.
-constexpr std::array<int, kDirections> kTurns{0, 1, -1, 2, -2, 3, -3, 4};
-
 constexpr std::int32_t cost_of(int direction) noexcept {
   return direction % 2 == 0 ? kStraightCost : kDiagonalCost;
 }
@@ -44,6 +41,13 @@ constexpr std::array<std::uint8_t, 512> make_moves() noexcept {
   return moves;
 }
 constexpr std::array<std::uint8_t, 512> kMoves = make_moves();
+
+// How far a pixel lies off the line from start to goal, in units of that line's length in pixels;
+// positive to starboard of it.
+int off_line(PathPixel start, PathPixel goal, PathPixel pixel) noexcept {
+  return (pixel.column - start.column) * (start.row - goal.row) -
+         (start.row - pixel.row) * (goal.column - start.column);
+}
 
 unsigned moves_from(const PassableGrid& grid, PathPixel pixel) noexcept {
   return kMoves[grid.around(pixel.column, pixel.row)];
@@ -186,29 +190,40 @@ std::int32_t AStar::cost_to_goal(PathPixel pixel) const noexcept {
   return known.stamp >= open_stamp_ ? known.cost : kNone;
 }
 
-// From the start, always to a pixel from which the goal costs just a step less.
+// The step of the tie-break: to a pixel from which the goal costs just that step less. There is
+// one: the pixel's cost was reached from such a neighbour.
+PathPixel AStar::next_on_path(const PassableGrid& grid, PathPixel pixel,
+                              PathPixel goal) const noexcept {
+  const unsigned moves = moves_from(grid, pixel);
+  const std::int32_t cost = cost_to_goal(pixel);
+  PathPixel best = pixel;
+  int least = std::numeric_limits<int>::max();
+  for (int direction = 0; direction < kDirections; ++direction) {
+    const PathPixel next = after(pixel, direction);
+    if ((moves >> direction & 1U) == 0 || cost_to_goal(next) != cost - cost_of(direction)) {
+      continue;
+    }
+    const int off = off_line(start_, goal, next);
+    // Doubled, so that of two equally near the one to starboard is a little nearer.
+    const int distance = 2 * std::abs(off) - (off > 0 ? 1 : 0);
+    if (distance < least) {
+      least = distance;
+      best = next;
+    }
+  }
+  return best;
+}
+
 void AStar::walk(const PassableGrid& grid, PathPixel goal, SearchResult& result) noexcept {
   PathPixel pixel = start_;
   std::size_t count = 0;
   path_[count++] = pixel;
-  int heading = 0;
   while (index_of(pixel) != index_of(goal)) {
     if (count == path_.size()) {
       result = {PathReason::kLimit, 0, result.expansions, {}};
       return;
     }
-    const unsigned moves = moves_from(grid, pixel);
-    const std::int32_t cost = cost_to_goal(pixel);
-    // One of the directions fits: the pixel's cost was reached from such a neighbour.
-    for (const int turn : kTurns) {
-      const int direction = (heading + turn + kDirections) % kDirections;
-      if ((moves >> direction & 1U) != 0 &&
-          cost_to_goal(after(pixel, direction)) == cost - cost_of(direction)) {
-        pixel = after(pixel, direction);
-        heading = direction;
-        break;
-      }
-    }
+    pixel = next_on_path(grid, pixel, goal);
     path_[count++] = pixel;
   }
   result.path = std::span<const PathPixel>{path_}.first(count);

@@ -34,16 +34,16 @@ struct SearchResult {
 // diagonal step only where both pixels beside it are passable. The cost is the least there is.
 //
 // Which of several cheapest paths is given (the tie-break):
-//   1. From the start on, at every pixel, the step is taken that turns least from the step before
-//      (the first step: from straight ahead), among the steps that lie on any cheapest path.
-//   2. Where turns of one size to either side lie on cheapest paths, it is the one to starboard.
+//   1. From the start on, at every pixel, the step is taken that ends nearest to the straight line
+//      from start to goal, among the steps that lie on any cheapest path.
+//   2. Where two steps end equally near, it is the one that ends to starboard of the line.
 //
-// Why: the vehicle re-plans in its own frame, in which the way it points is straight ahead. Who
-// holds a course for as long as that costs nothing finds, at the next ping, the rest of the path
-// being followed; who takes the diagonals first is asked for a turn at every re-plan, and to turn
-// back at the next. It makes few turns and no zig-zag: straight ahead, then one diagonal leg. The
-// paper's boat does likewise (section 4.4: at 26 s and 0.22 m/s it is nearly at the protection
-// circle and still takes a new side). Starboard is the side that boats meeting head-on take.
+// Why: a cheapest path of eight directions may lie anywhere in a wide parallelogram; this one keeps
+// to the straight line and leaves it only where an obstacle makes it. A vehicle that follows it
+// heads for the goal, turns for an obstacle as late as costs nothing, and turns back as soon as it
+// is past, as the paper's does (section 4.4: at 26 s it is nearly at the protection circle and
+// still takes a new side; 20.9 m in all for a goal 20 m away). Starboard is the side that boats
+// meeting head-on take.
 //
 // The rule speaks of the map, start and goal alone, not of a search: any search that knows the
 // exact cost to the goal of the pixels on cheapest paths can follow it. This one starts from the
@@ -97,6 +97,8 @@ class AStar {
                                     PathPixel goal) noexcept;
   // Of a pixel that this search has reached; kNone of any other.
   [[nodiscard]] std::int32_t cost_to_goal(PathPixel pixel) const noexcept;
+  [[nodiscard]] PathPixel next_on_path(const PassableGrid& grid, PathPixel pixel,
+                                       PathPixel goal) const noexcept;
   void walk(const PassableGrid& grid, PathPixel goal, SearchResult& result) noexcept;
 
   SearchLimits limits_;

@@ -119,11 +119,9 @@ std::optional<Crossing> crossing_of(const CapsulePx& edge, int row) noexcept {
 
 std::optional<ZonePx> zone_of(const Obstacle& obstacle, const SonarView& view) noexcept {
   switch (obstacle.shape) {
-    case ObstacleShape::kEllipse:
-      return ellipse_of(obstacle, view);
+    case ObstacleShape::kEllipse: return ellipse_of(obstacle, view);
     case ObstacleShape::kPolyline:
-    case ObstacleShape::kPolygon:
-      return wall_of(obstacle, view);
+    case ObstacleShape::kPolygon: return wall_of(obstacle, view);
   }
   return std::nullopt;
 }

@@ -137,6 +137,16 @@ TEST_CASE("replanner: an answer to another question is none", "[high_level][guid
   CHECK(replanner.answer(s(18.2), *found(*request), 30.0) == nullptr);
 }
 
+TEST_CASE("replanner: the first frame of a mission is waited for, but not for ever",
+          "[high_level][guidance]") {
+  Replanner replanner{paper()};
+  replanner.start(s(10.0));
+  CHECK(replanner.no_frame(s(10.4), false) == nullptr);
+  const Plan* plan = replanner.no_frame(s(10.6), false);
+  REQUIRE(plan != nullptr);
+  CHECK(plan->reason == PathReason::kNoFrame);
+}
+
 TEST_CASE("replanner: a blind sonar or a silent PathFinder leaves nothing to follow, said once",
           "[high_level][guidance]") {
   Replanner replanner{paper()};

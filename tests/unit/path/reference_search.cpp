@@ -33,16 +33,16 @@ std::vector<PathPixel> neighbours(PathPixel of) {
   return all;
 }
 
-// Of a step, in degrees clockwise from straight ahead.
-int bearing_deg(PathPixel from, PathPixel to) {
-  const double degrees = std::atan2(to.column - from.column, from.row - to.row) * 180.0 / M_PI;
-  return static_cast<int>(std::lround(degrees));
-}
-
-// Of a turn, the smaller the better: its size, and a little more to port.
-int dislike_of_turn(int from_deg, int to_deg) {
-  const int turn = ((to_deg - from_deg) % 360 + 540) % 360 - 180;
-  return 2 * std::abs(turn) + (turn < 0 ? 1 : 0);
+// Of a step's end, the smaller the better: its distance from the line between start and goal, and
+// a little more where that is to port.
+double dislike_of(PathPixel end, PathPixel start, PathPixel goal) {
+  const double across = goal.column - start.column;
+  const double ahead = start.row - goal.row;
+  const double length = std::hypot(across, ahead);
+  const double off =
+      length > 0.0 ? ((end.column - start.column) * ahead - (start.row - end.row) * across) / length
+                   : 0.0;
+  return std::abs(off) + (off < 0.0 ? 1e-6 : 0.0);
 }
 
 }  // namespace
@@ -86,22 +86,20 @@ std::vector<PathPixel> path_by_rule(const PassableGrid& grid, const Window& wind
     return {};
   }
   std::vector<PathPixel> path{start};
-  int heading_deg = 0;
   while (!same(path.back(), goal)) {
     const PathPixel at = path.back();
     const int cost = cost_to_goal[window.index(at)];
-    std::vector<std::pair<int, PathPixel>> choices;
+    std::vector<std::pair<double, PathPixel>> choices;
     for (const PathPixel next : neighbours(at)) {
       if (window.holds(next) && may_step(grid, at, next) &&
           cost_to_goal[window.index(next)] + step_cost(at, next) == cost) {
-        choices.emplace_back(dislike_of_turn(heading_deg, bearing_deg(at, next)), next);
+        choices.emplace_back(dislike_of(next, start, goal), next);
       }
     }
     const auto best =
         std::min_element(choices.begin(), choices.end(),
                          [](const auto& l, const auto& r) { return l.first < r.first; });
     REQUIRE(best != choices.end());
-    heading_deg = bearing_deg(at, best->second);
     path.push_back(best->second);
   }
   return path;
@@ -122,14 +120,6 @@ void require_walkable(const PassableGrid& grid, std::span<const PathPixel> path,
   }
   REQUIRE(walkable);
   REQUIRE(sum == cost);
-}
-
-int turns_in(std::span<const PathPixel> path) {
-  int turns = 0;
-  for (std::size_t i = 2; i < path.size(); ++i) {
-    turns += bearing_deg(path[i - 2], path[i - 1]) != bearing_deg(path[i - 1], path[i]) ? 1 : 0;
-  }
-  return turns;
 }
 
 PathPixel pixel(int column, int row) {

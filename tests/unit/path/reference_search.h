@@ -44,8 +44,6 @@ inline constexpr int kUnreached = -1;
 void require_walkable(const PassableGrid& grid, std::span<const PathPixel> path, PathPixel start,
                       PathPixel goal, std::int32_t cost);
 
-// How often the direction changes along a path.
-[[nodiscard]] int turns_in(std::span<const PathPixel> path);
 
 [[nodiscard]] PathPixel pixel(int column, int row);
 [[nodiscard]] bool same(PathPixel l, PathPixel r);
