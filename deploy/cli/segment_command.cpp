@@ -17,10 +17,11 @@
 #include <vector>
 
 #include "deploy/cli/common_options.h"
+#include "deploy/cli/run/settings.h"
 #include "low_level/path/path_finder.h"
 #include "low_level/sonar/ping_image.h"
+#include "low_level/sonar/protection.h"
 #include "low_level/sonar/segmentation.h"
-#include "low_level/sonar/segmentation_config.h"
 #include "low_level/sonar/view_image.h"
 #include "mid_level/base/heading.h"
 #include "mid_level/base/startup_error.h"
@@ -30,22 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-// What the command segments with, unless --config, --set or --threshold say otherwise. The same
-// values as the vehicle's configuration.
-constexpr const char* kShippedSegmentation = R"([segmentation]
-threshold = 50.0
-min_range_m = 1.0
-min_blob_bins = 12
-join_beams = 1
-join_bins = 3
-max_obstacle_length_m = 3.0
-min_fill = 0.4
-enclosed_fraction = 0.95
-protection_margin_m = 1.5
-stripe_fraction = 0.3
-stripe_max_beams = 5
-)";
 
 struct SegmentOptions {
   CommonOptions common;
@@ -61,28 +46,21 @@ struct SegmentOptions {
   double threshold = 0.0;      // 0: the configuration's
 };
 
-SegmentationOptions configured(const SegmentOptions& options) {
-  TomlDocument document = TomlDocument::from_text(kShippedSegmentation, "segmentation defaults");
-  for (const std::string& file : options.common.config_files) {
-    document.overlay(TomlDocument::from_file(file));
-  }
-  for (const std::string& set : options.common.sets) {
-    document.overlay(TomlDocument::from_text(set, "--set " + set));
-  }
-  SegmentationOptions segmentation =
-      read_segmentation_options(document.root().table("segmentation"));
-  document.require_all_keys_read();
+// What the vehicle would do with the same configuration.
+DeltaTOptions configured(const SegmentOptions& options) {
+  const TomlDocument document = load_configuration("default", options.common);
+  DeltaTOptions delta_t = read_low_level_options(document.root()).delta_t;
   if (options.threshold > 0.0) {
-    segmentation.threshold = options.threshold;
+    delta_t.segmentation.threshold = options.threshold;
   }
-  return segmentation;
+  return delta_t;
 }
 
 // The frames of one call, one after another, through one Segmenter as on the vehicle.
 class FrameReader {
  public:
   explicit FrameReader(const SegmentOptions& options)
-      : options_{options}, segmenter_{configured(options)} {}
+      : options_{options}, delta_t_{configured(options)}, segmenter_{delta_t_.segmentation} {}
 
   Json read(const fs::path& file);
 
@@ -92,6 +70,7 @@ class FrameReader {
   void save_overlay(const fs::path& file);
 
   const SegmentOptions& options_;
+  DeltaTOptions delta_t_;
   Segmenter segmenter_;
   PathFinder path_finder_;
   // On the heap, because a ping is half a megabyte.
@@ -140,6 +119,9 @@ Json to_json(const Obstacle& o) {
 Json FrameReader::read(const fs::path& file) {
   load(file);
   segmenter_.segment(*ping_, *obstacles_);
+  if (delta_t_.own_zones) {
+    make_own_zones(*delta_t_.own_zones, *obstacles_);
+  }
   Json frame{{"file", file.string()}, {"obstacles", Json::array()}};
   for (std::uint32_t i = 0; i < obstacles_->count; ++i) {
     frame["obstacles"].push_back(to_json(obstacles_->obstacles[i]));
@@ -296,13 +278,8 @@ class SegmentCommand : public CLI::App {
   void run() {
     options_.fan = layout_ == "fan";
     options_.apex_at_bottom = apex_ == "bottom";
-    try {
-      segment(options_);
-      exit_status_ = kExitDone;
-    } catch (const StartupError& error) {
-      std::cerr << error.what() << "\n";
-      exit_status_ = kExitRefused;
-    }
+    segment(options_);
+    exit_status_ = kExitDone;
   }
 
   int& exit_status_;

@@ -22,23 +22,24 @@ struct Moments {
 Moments moments_of(const PolarGrid& grid, std::span<const std::uint32_t> cells) noexcept {
   Moments m;
   for (const std::uint32_t cell : cells) {
-    const double weight = grid.range_m(cell);  // the area, but for a constant factor
-    m.weight += weight;
-    m.mean_x += weight * grid.x_m(cell);
-    m.mean_y += weight * grid.y_m(cell);
+    const PolarGrid::Place p = grid.place(cell);
+    m.weight += p.range_m;  // the cell's area, but for a constant factor
+    m.mean_x += p.range_m * p.x_m();
+    m.mean_y += p.range_m * p.y_m();
   }
   m.mean_x /= m.weight;
   m.mean_y /= m.weight;
   const double depth_variance = grid.bin_depth_m * grid.bin_depth_m / 12.0;
   for (const std::uint32_t cell : cells) {
-    const double weight = grid.range_m(cell);
-    const double dx = grid.x_m(cell) - m.mean_x;
-    const double dy = grid.y_m(cell) - m.mean_y;
+    const PolarGrid::Place p = grid.place(cell);
+    const double weight = p.range_m;
+    const double dx = p.x_m() - m.mean_x;
+    const double dy = p.y_m() - m.mean_y;
     // The cell's own spread: uniform over its depth along the beam and its width across it.
-    const double width_m = grid.range_m(cell) * grid.beam_width_rad;
+    const double width_m = p.range_m * grid.beam_width_rad;
     const double width_variance = width_m * width_m / 12.0;
-    const double s = grid.sine[cell / grid.bins];
-    const double c = grid.cosine[cell / grid.bins];
+    const double s = p.sine;
+    const double c = p.cosine;
     m.xx += weight * (dx * dx + s * s * depth_variance + c * c * width_variance);
     m.yy += weight * (dy * dy + c * c * depth_variance + s * s * width_variance);
     m.xy += weight * (dx * dy + s * c * (depth_variance - width_variance));
@@ -47,39 +48,6 @@ Moments moments_of(const PolarGrid& grid, std::span<const std::uint32_t> cells) 
   m.yy /= m.weight;
   m.xy /= m.weight;
   return m;
-}
-
-// The factor by which the ellipse of the moments must grow to enclose the fraction. It never
-// shrinks, so an ellipse is at least 0.58 of a cell in each semi-axis.
-double enclosing_scale(const PolarGrid& grid, std::span<const std::uint32_t> cells,
-                       const BlobEllipse& e, double fraction) noexcept {
-  // With the semi-axes at two standard deviations the mean of the squared normalised distance is
-  // at most 0.5, so by Markov's inequality the wanted quantile is at most 0.5 / (1 - fraction).
-  const double limit = 0.5 / (1.0 - fraction);
-  std::array<double, kBuckets> histogram{};
-  double total = 0.0;
-  for (const std::uint32_t cell : cells) {
-    const double dx = grid.x_m(cell) - e.centre_x_m;
-    const double dy = grid.y_m(cell) - e.centre_y_m;
-    const double along = (dx * e.axis_x + dy * e.axis_y) / e.first_m;
-    const double across = (dx * e.axis_y - dy * e.axis_x) / e.second_m;
-    const double part = std::min((along * along + across * across) / limit, 1.0);
-    const auto bucket = static_cast<std::size_t>(part * static_cast<double>(kBuckets - 1));
-    histogram[bucket] += grid.range_m(cell);
-    total += grid.range_m(cell);
-  }
-  double enclosed = 0.0;
-  std::size_t bucket = 0;
-  while (bucket < kBuckets - 1) {
-    enclosed += histogram[bucket];
-    if (enclosed >= fraction * total) {
-      break;
-    }
-    ++bucket;
-  }
-  const double quantile =
-      limit * static_cast<double>(bucket + 1) / static_cast<double>(kBuckets - 1);
-  return std::sqrt(std::max(1.0, quantile));
 }
 
 }  // namespace
@@ -94,8 +62,7 @@ void PolarGrid::set(const SonarPing& ping) noexcept {
   }
 }
 
-BlobEllipse fit_ellipse(const PolarGrid& grid, std::span<const std::uint32_t> cells,
-                        double enclosed_fraction) noexcept {
+BlobEllipse moment_ellipse(const PolarGrid& grid, std::span<const std::uint32_t> cells) noexcept {
   const Moments m = moments_of(grid, cells);
   BlobEllipse e;
   e.centre_x_m = m.mean_x;
@@ -106,32 +73,61 @@ BlobEllipse fit_ellipse(const PolarGrid& grid, std::span<const std::uint32_t> ce
   const double turn = 0.5 * std::atan2(2.0 * m.xy, m.yy - m.xx);  // clockwise from +y
   e.axis_x = std::sin(turn);
   e.axis_y = std::cos(turn);
-  // Rounding may bring the smaller one below what the cells' own spread guarantees.
-  const double floor = std::min(grid.bin_depth_m, grid.range_m(cells[0]) * grid.beam_width_rad);
-  e.first_m = std::max(2.0 * std::sqrt(middle + spread), 0.5 * floor);
-  e.second_m = std::max(2.0 * std::sqrt(std::max(middle - spread, 0.0)), 0.5 * floor);
+  // Half a cell at the least, whatever rounding does to the smaller eigenvalue.
+  const double width_m = grid.place(cells[0]).range_m * grid.beam_width_rad;
+  const double least_m = 0.5 * std::min(grid.bin_depth_m, width_m);
+  e.first_m = std::max(2.0 * std::sqrt(middle + spread), least_m);
+  e.second_m = std::max(2.0 * std::sqrt(std::max(middle - spread, 0.0)), least_m);
+  return e;
+}
 
-  const double scale = enclosing_scale(grid, cells, e, enclosed_fraction);
+BlobEllipse enclose(const PolarGrid& grid, std::span<const std::uint32_t> cells,
+                    const BlobEllipse& moments, double fraction) noexcept {
+  // With the semi-axes at two standard deviations the mean of the squared normalised distance is
+  // at most 0.5, so by Markov's inequality the wanted quantile is at most 0.5 / (1 - fraction).
+  const double limit = 0.5 / (1.0 - fraction);
+  std::array<double, kBuckets> histogram{};
+  double total = 0.0;
+  double nearest_m = grid.place(cells[0]).range_m;
+  for (const std::uint32_t cell : cells) {
+    const PolarGrid::Place p = grid.place(cell);
+    const double dx = p.x_m() - moments.centre_x_m;
+    const double dy = p.y_m() - moments.centre_y_m;
+    const double along = (dx * moments.axis_x + dy * moments.axis_y) / moments.first_m;
+    const double across = (dx * moments.axis_y - dy * moments.axis_x) / moments.second_m;
+    const double part = std::min((along * along + across * across) / limit, 1.0);
+    histogram[static_cast<std::size_t>(part * (kBuckets - 1.0))] += p.range_m;
+    total += p.range_m;
+    nearest_m = std::min(nearest_m, p.range_m);
+  }
+  std::size_t bucket = 0;
+  double enclosed = histogram[0];
+  while (bucket + 1 < kBuckets && enclosed < fraction * total) {
+    enclosed += histogram[++bucket];
+  }
+  const double quantile = limit * static_cast<double>(bucket + 1) / (kBuckets - 1.0);
+  const double scale = std::sqrt(std::max(1.0, quantile));
+  BlobEllipse e = moments;
   e.first_m *= scale;
   e.second_m *= scale;
-  const double blob_area = m.weight * grid.bin_depth_m * grid.beam_width_rad;
+  e.nearest_m = nearest_m;
+  const double blob_area = total * grid.bin_depth_m * grid.beam_width_rad;
   e.fill = blob_area / (std::numbers::pi * e.first_m * e.second_m);
-  e.nearest_m = grid.range_m(*std::min_element(
-      cells.begin(), cells.end(),
-      [&grid](std::uint32_t a, std::uint32_t b) { return a % grid.bins < b % grid.bins; }));
   return e;
 }
 
 std::size_t split_across(const PolarGrid& grid, std::span<std::uint32_t> cells,
                          const BlobEllipse& ellipse) noexcept {
   const auto along = [&](std::uint32_t cell) {
-    return grid.x_m(cell) * ellipse.axis_x + grid.y_m(cell) * ellipse.axis_y;
+    const PolarGrid::Place p = grid.place(cell);
+    return p.x_m() * ellipse.axis_x + p.y_m() * ellipse.axis_y;
   };
   double low = along(cells[0]);
   double high = low;
   for (const std::uint32_t cell : cells) {
-    low = std::min(low, along(cell));
-    high = std::max(high, along(cell));
+    const double here = along(cell);
+    low = std::min(low, here);
+    high = std::max(high, here);
   }
   const double middle = 0.5 * (low + high);
   const auto ahead = std::partition(cells.begin(), cells.end(),

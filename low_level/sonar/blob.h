@@ -21,14 +21,16 @@ struct PolarGrid {
   std::array<double, kMaxBeams> cosine{};  // [-]
 
   void set(const SonarPing& ping) noexcept;
-  [[nodiscard]] double range_m(std::uint32_t cell) const noexcept {
-    return (cell % bins + 0.5) * bin_depth_m;
-  }
-  [[nodiscard]] double x_m(std::uint32_t cell) const noexcept {
-    return range_m(cell) * sine[cell / bins];
-  }
-  [[nodiscard]] double y_m(std::uint32_t cell) const noexcept {
-    return range_m(cell) * cosine[cell / bins];
+  struct Place {
+    double range_m;  // [m]
+    double sine;     // [-] of the bearing
+    double cosine;   // [-]
+    [[nodiscard]] double x_m() const noexcept { return range_m * sine; }
+    [[nodiscard]] double y_m() const noexcept { return range_m * cosine; }
+  };
+  [[nodiscard]] Place place(std::uint32_t cell) const noexcept {
+    const std::uint32_t beam = cell / bins;
+    return {(cell - beam * bins + 0.5) * bin_depth_m, sine[beam], cosine[beam]};
   }
 };
 
@@ -43,11 +45,17 @@ struct BlobEllipse {
   double fill = 0.0;        // [-] the blob's area over the ellipse's
 };
 
-// The ellipse with the cells' centroid and axes that encloses `enclosed_fraction` in [0.5, 0.99]
-// of their area. A cell weighs its area, which grows with range, and has its own width and depth,
-// so that one cell gives an ellipse of its own size. `cells` holds at least one.
-[[nodiscard]] BlobEllipse fit_ellipse(const PolarGrid& grid, std::span<const std::uint32_t> cells,
-                                      double enclosed_fraction) noexcept;
+// The ellipse with the cells' centroid and area-weighted variances; its semi-axes are two standard
+// deviations, which is exact for a filled ellipse. A cell weighs its area, which grows with range,
+// and has its own width and depth, so that one cell gives an ellipse of its own size. `cells`
+// holds at least one. Leaves `fill` and `nearest_m` for enclose().
+[[nodiscard]] BlobEllipse moment_ellipse(const PolarGrid& grid,
+                                         std::span<const std::uint32_t> cells) noexcept;
+
+// The same ellipse, grown (never shrunk) until it holds `fraction` in [0.5, 0.99] of the cells'
+// area.
+[[nodiscard]] BlobEllipse enclose(const PolarGrid& grid, std::span<const std::uint32_t> cells,
+                                  const BlobEllipse& moments, double fraction) noexcept;
 
 // Reorders the cells into those behind and those ahead of the middle of the blob's extent along
 // the ellipse's longer axis, and gives the number of the first kind.

@@ -173,7 +173,8 @@ void polar_to_ping(const GreyImage& image, const std::filesystem::path& file, So
 }
 
 FanGeometry whole_image_fan(const GreyImage& image, bool apex_at_bottom) noexcept {
-  return {static_cast<double>(image.columns / 2), apex_at_bottom ? image.rows - 1.0 : 0.0,
+  const std::uint32_t middle = image.columns / 2;  // 433 of 866, as in our own view
+  return {static_cast<double>(middle), apex_at_bottom ? image.rows - 1.0 : 0.0,
           static_cast<double>(image.rows), apex_at_bottom};
 }
 

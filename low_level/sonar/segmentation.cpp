@@ -27,6 +27,10 @@ std::uint32_t first_used_bin(const SonarPing& ping, double min_range_m) noexcept
   return static_cast<std::uint32_t>(std::clamp(bin, 0.0, static_cast<double>(ping.bins)));
 }
 
+std::span<const std::uint8_t> beam_of(const SonarPing& ping, std::uint32_t beam) noexcept {
+  return std::span{ping.echo}.subspan(std::size_t{beam} * ping.bins, ping.bins);
+}
+
 std::uint8_t usual_level(std::span<const std::uint8_t> beam) noexcept {
   std::array<std::uint32_t, 256> histogram{};
   for (const std::uint8_t echo : beam) {
@@ -83,8 +87,8 @@ void Segmenter::copy_without_stripes(const SonarPing& ping) noexcept {
   const std::uint32_t first_bin = first_used_bin(ping, options_.min_range_m);
   const double most = options_.stripe_fraction * (ping.bins - first_bin);
   const auto is_stripe = [&](std::uint32_t beam) {
-    const auto begin = ping.echo.begin() + beam * ping.bins;
-    const auto bright = std::count_if(begin + first_bin, begin + ping.bins, [&](std::uint8_t echo) {
+    const auto echoes = beam_of(ping, beam).subspan(first_bin);
+    const auto bright = std::count_if(echoes.begin(), echoes.end(), [&](std::uint8_t echo) {
       return echo >= options_.threshold;
     });
     return static_cast<double>(bright) > most;
@@ -108,7 +112,7 @@ void Segmenter::replace_stripe(const SonarPing& ping, std::uint32_t first,
   const bool right = end < ping.beams;
   const std::uint32_t bins = ping.bins;
   for (std::uint32_t beam = first; beam < end; ++beam) {
-    const std::uint8_t usual = usual_level({&ping.echo[beam * bins], bins});
+    const std::uint8_t usual = usual_level(beam_of(ping, beam));
     for (std::uint32_t bin = 0; bin < bins; ++bin) {
       const std::uint32_t on_left = left ? ping.echo[(first - 1) * bins + bin] : 0;
       const std::uint32_t on_right = right ? ping.echo[end * bins + bin] : 0;
@@ -184,8 +188,10 @@ void Segmenter::add_blob(std::size_t size) noexcept {
   pieces[waiting++] = {std::span{cells_}.first(size), 0};
   while (waiting > 0) {
     const Piece piece = pieces[--waiting];
-    const BlobEllipse ellipse = fit_ellipse(grid_, piece.cells, options_.enclosed_fraction);
+    const BlobEllipse moments = moment_ellipse(grid_, piece.cells);
+    const BlobEllipse ellipse = enclose(grid_, piece.cells, moments, options_.enclosed_fraction);
     if (piece.splits < kMaxSplits && must_split(ellipse)) {
+      // One cell may be longer than the longest obstacle (few beams, far away): then no cut helps.
       const std::size_t behind = split_across(grid_, piece.cells, ellipse);
       if (behind > 0 && behind < piece.cells.size()) {
         pieces[waiting++] = {piece.cells.first(behind), piece.splits + 1};

@@ -2,12 +2,34 @@
 #include "low_level/sonar/segmentation.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
+#include <new>
 #include <random>
 
 #include "tests/support/catch.h"
 #include "tests/unit/sonar/synthetic.h"
+
+namespace {
+std::atomic<long> allocations{0};
+}  // namespace
+
+// All single-object forms together: one that is not replaced could meet another one's delete.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++allocations;
+  return std::malloc(size == 0 ? 1 : size);
+}
+void* operator new(std::size_t size) {
+  if (void* memory = operator new(size, std::nothrow)) {
+    return memory;
+  }
+  throw std::bad_alloc{};
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
 
 namespace lodesman {
 namespace {
@@ -255,6 +277,30 @@ TEST_CASE("segmentation: everything bright is a bounded amount of work and obsta
   CHECK(seen->count == kMaxObstacles);
   CHECK(seen->dropped <= 256 - kMaxObstacles);
   CHECK(std::all_of(seen->obstacles.begin(), seen->obstacles.end(), is_sound));
+}
+
+TEST_CASE("segmentation: one bin longer than any obstacle may be is kept as it is",
+          "[low_level][sonar]") {
+  const auto ping = empty_ping(300.0, 2, 40);
+  ping->sector_rad = 3.0;
+  light(*ping, 255, [](double, double y) { return y > 0.0; });
+  SegmentationOptions options = shipped_options();
+  options.min_blob_bins = 1;
+  options.stripe_max_beams = 0;
+  const auto seen = segment(*ping, options);
+  CHECK(seen->count > 0);
+  CHECK(std::all_of(seen->obstacles.begin(), seen->obstacles.begin() + seen->count, is_sound));
+}
+
+TEST_CASE("segmentation: allocates nothing once it is made", "[low_level][sonar]") {
+  const auto ping = empty_ping();
+  light(*ping, 220, [](double x, double y) { return std::abs(y - 15.0) <= 0.3 || x > 5.0; });
+  const auto seen = std::make_unique<SonarObstacles>();
+  Segmenter segmenter{shipped_options()};
+  const long before = allocations;
+  segmenter.segment(*ping, *seen);
+  CHECK(allocations == before);
+  CHECK(seen->count > 0);
 }
 
 TEST_CASE("segmentation: a ping that breaks its own ranges gives none", "[low_level][sonar]") {

@@ -9,24 +9,15 @@
 #include <numbers>
 
 #include "low_level/sonar/segmentation.h"
+#include "low_level/sonar/segmentation_config.h"
 #include "mid_level/base/heading.h"
 #include "mid_level/messages/sonar.h"
 
 namespace lodesman::testing {
 
-// The values of the shipped configuration's [segmentation].
 inline SegmentationOptions shipped_options() {
-  return {.threshold = 50.0,
-          .min_range_m = 1.0,
-          .min_blob_bins = 12,
-          .join_beams = 1,
-          .join_bins = 3,
-          .max_obstacle_length_m = 3.0,
-          .min_fill = 0.4,
-          .enclosed_fraction = 0.95,
-          .protection_margin_m = 1.5,
-          .stripe_fraction = 0.3,
-          .stripe_max_beams = 5};
+  const TomlDocument document = TomlDocument::from_file(LODESMAN_DEFAULT_CONFIG);
+  return read_segmentation_options(document.root().table("segmentation"));
 }
 
 // The DeltaT of the paper's section 5, seeing nothing.
