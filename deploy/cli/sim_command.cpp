@@ -149,7 +149,7 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
   }
   write_run_files(directory, record);
   if (!options.no_images) {
-    write_plots(directory, record);
+    draw_pictures(directory, record);
   }
   if (options.common.json) {
     fmt::print("{}", result_json(record.result));

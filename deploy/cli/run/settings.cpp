@@ -44,6 +44,7 @@ TomlDocument load_configuration(const std::string& profile, const CommonOptions&
   (void)read_low_level_options(configuration.root());
   (void)read_high_level_options(configuration.root());
   (void)command_socket_settings(configuration);
+  (void)device_addresses(configuration);
   (void)simulation_settings(configuration);
   configuration.require_all_keys_read();
   return configuration;
@@ -54,15 +55,10 @@ fs::path scenario_file(const std::string& name_or_path) {
   return find_scenario(name_or_path, directories);
 }
 
-VesselParameters load_vessel() {
-  const TomlDocument document = TomlDocument::from_file(config_file("vessel.toml"));
-  const VesselParameters vessel = read_vessel_parameters(document.root().table("vessel"));
-  document.require_all_keys_read();
-  return vessel;
-}
+VesselParameters load_vessel_parameters() { return load_vessel(config_file("vessel.toml")); }
 
 Scenario load_named_scenario(const std::string& name_or_path) {
-  return load_scenario(scenario_file(name_or_path), load_vessel());
+  return load_scenario(scenario_file(name_or_path), load_vessel_parameters());
 }
 
 LowLevelOptions low_level_options(const TomlDocument& configuration, const Scenario& scenario) {
@@ -92,6 +88,12 @@ HighLevelOptions high_level_options(const TomlDocument& configuration, const Sce
 CommandSocketSettings command_socket_settings(const TomlDocument& configuration) {
   const TomlTable table = configuration.root().table("command_socket");
   return {table.text("address", 64), static_cast<std::uint16_t>(table.integer("port", 0, 65535))};
+}
+
+DeviceAddresses device_addresses(const TomlDocument& configuration) {
+  const TomlTable table = configuration.root().table("devices");
+  return {table.text("heading", 256), table.text("sonar", 256), table.text("position", 256),
+          table.text("thrusters", 256)};
 }
 
 SimulationSettings simulation_settings(const TomlDocument& configuration) {

@@ -30,7 +30,7 @@ namespace lodesman::cli {
 // By path, or by the name of a shipped scenario.
 [[nodiscard]] Scenario load_named_scenario(const std::string& name_or_path);
 [[nodiscard]] std::filesystem::path scenario_file(const std::string& name_or_path);
-[[nodiscard]] VesselParameters load_vessel();
+[[nodiscard]] VesselParameters load_vessel_parameters();
 
 // The options of each level for a scenario that is simulated.
 [[nodiscard]] LowLevelOptions low_level_options(const TomlDocument& configuration,
@@ -44,6 +44,13 @@ struct CommandSocketSettings {
   std::uint16_t port = 0;
 };
 [[nodiscard]] CommandSocketSettings command_socket_settings(const TomlDocument& configuration);
+struct DeviceAddresses {
+  std::string heading;
+  std::string sonar;
+  std::string position;
+  std::string thrusters;
+};
+[[nodiscard]] DeviceAddresses device_addresses(const TomlDocument& configuration);
 struct SimulationSettings {
   Duration lockstep_jitter{};
   Duration sonar_view_period{};
