@@ -10,6 +10,9 @@ namespace {
 // thread runs beside the poller's and may have woken just after it.
 constexpr std::uint64_t kSamplesAhead_max = 4;
 
+// The world's steps come with the jitter of its thread: a sample so early is due.
+constexpr Duration kEarly_max = std::chrono::milliseconds{5};
+
 }  // namespace
 
 SampleFeed::SampleFeed(const SimLink& link, Duration period, FaultSchedule faults)
@@ -36,9 +39,8 @@ SampleFeed::Due SampleFeed::poll(Time now) noexcept {
   if (fault == FaultKind::kDisconnect) {
     return {ReadStatus::kDisconnected, {}};
   }
-  // The world's steps come with the jitter of its thread: a sample a quarter period early is due.
   const bool due =
-      !any_given_ || (sample->stamp > last_given_ && sample->stamp + period_ / 4 >= next_due_);
+      !any_given_ || (sample->stamp > last_given_ && sample->stamp + kEarly_max >= next_due_);
   if (!due || fault == FaultKind::kStall) {
     return {};
   }

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// World and devices in their steps: whole seconds of them take nothing from the heap.
+#include <atomic>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+#include "hal_sim/devices/sim_heading_sensor.h"
+#include "hal_sim/devices/sim_position_sensor.h"
+#include "hal_sim/devices/sim_sonar.h"
+#include "hal_sim/devices/sim_thruster_pair.h"
+#include "hal_sim/world/world_task.h"
+#include "tests/support/catch.h"
+
+namespace {
+
+std::atomic<std::size_t> allocations{0};
+
+}  // namespace
+
+// All single-object forms together: one that is not replaced could meet another one's delete.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  return std::malloc(size == 0 ? 1 : size);
+}
+void* operator new(std::size_t size) {
+  if (void* memory = operator new(size, std::nothrow)) {
+    return memory;
+  }
+  throw std::bad_alloc{};
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
+
+namespace lodesman {
+namespace {
+
+[[nodiscard]] MovingObstacle mover(ObstacleShape shape) {
+  MovingObstacle obstacle;
+  obstacle.at_start.shape = shape;
+  obstacle.at_start.centre_y_m = 10.0;
+  obstacle.at_start.semi_axis_first_m = 2.0;
+  obstacle.at_start.semi_axis_second_m = 0.5;
+  obstacle.at_start.vertex_count = 3;
+  obstacle.at_start.vertices[0] = {-5.0, 12.0};
+  obstacle.at_start.vertices[1] = {5.0, 13.0};
+  obstacle.at_start.vertices[2] = {0.0, 15.0};
+  obstacle.velocity_x_m_s = 0.1;
+  return obstacle;
+}
+
+TEST_CASE("world and simulated devices allocate nothing once made", "[hal_sim][devices]") {
+  Scenario scenario;
+  scenario.obstacles = {mover(ObstacleShape::kEllipse), mover(ObstacleShape::kPolyline),
+                        mover(ObstacleShape::kPolygon)};
+  scenario.faults = {{FaultDevice::kSonar, FaultKind::kCorrupt, 1.0, 0.5}};
+  const auto board = std::make_unique<Blackboard>();
+  const auto link = std::make_unique<SimLink>();
+  const auto ping = std::make_unique<SonarPing>();
+  WorldTask world{scenario, load_vessel(LODESMAN_VESSEL), *board, *link};
+  SimHeadingSensor heading{scenario, *link};
+  SimPositionSensor position{scenario, *link};
+  SimSonar sonar{scenario, *link};
+  SimThrusterPair box{scenario, *link};
+  Writer<MissionStatus> mission{board->mission_status, Role::kHigh, "mission_status"};
+  Time now{std::chrono::seconds{1}};
+  mission.publish({MissionState::kUnderWay, now, {}, 0, 0.0, 0.0}, now);
+  bool taken = true;
+  int fresh = 0;
+  const std::size_t before = allocations.load();
+  for (int i = 0; i < 150; ++i) {
+    now += std::chrono::milliseconds{20};
+    world.step(now);
+    fresh += heading.poll(now).status == ReadStatus::kFresh ? 1 : 0;
+    fresh += position.poll(now).status == ReadStatus::kFresh ? 1 : 0;
+    fresh += sonar.poll(now, *ping) == ReadStatus::kFresh ? 1 : 0;
+    taken = box.command({200, 180}, now) && taken;
+  }
+  const std::size_t after = allocations.load();
+  CHECK(after == before);
+  CHECK(taken);
+  CHECK(fresh == 150 + 15 + 25);
+}
+
+}  // namespace
+}  // namespace lodesman

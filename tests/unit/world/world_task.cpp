@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hal_sim/world/world_task.h"
+
+#include <memory>
+
+#include "hal_sim/devices/sim_thruster_pair.h"
+#include "tests/support/catch.h"
+#include "tests/unit/world/support.h"
+
+namespace lodesman {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::kGoodScenario;
+using testing::scenario_of;
+using testing::shipped_vessel;
+
+// A world with its task, a mission that can be started and a thruster box, on a time of its own.
+struct Bench {
+  explicit Bench(const std::string& more = "")
+      : scenario{scenario_of(kGoodScenario.substr(0, kGoodScenario.find("[[obstacle]]")) + more)},
+        task{scenario, shipped_vessel(), *board, *link},
+        box{scenario, *link},
+        mission{board->mission_status, Role::kHigh, "mission_status"},
+        truths{board->world_truth},
+        samples{link->world} {}
+
+  void start() {
+    MissionStatus status;
+    status.state = MissionState::kUnderWay;
+    status.started = now;
+    mission.publish(status, now);
+  }
+  void run_for(Duration span) {
+    for (const Time end = now + span; now < end;) {
+      now += milliseconds{20};
+      task.step(now);
+    }
+  }
+
+  std::unique_ptr<Blackboard> board = std::make_unique<Blackboard>();
+  std::unique_ptr<SimLink> link = std::make_unique<SimLink>();
+  Scenario scenario;
+  WorldTask task;
+  SimThrusterPair box;
+  Writer<MissionStatus> mission;
+  Reader<WorldTruth> truths;
+  Reader<WorldSample> samples;
+  Time now{std::chrono::seconds{100}};
+};
+
+TEST_CASE("world task: before the mission the boat lies at its start and no time passes",
+          "[hal_sim][world]") {
+  Bench bench{"[environment]\ncurrent_m_s = [0.5, 0.0]\n"};
+  REQUIRE(bench.box.command({255, 255}, bench.now));
+  bench.run_for(std::chrono::seconds{2});
+  const auto* truth = bench.truths.latest();
+  REQUIRE(truth != nullptr);
+  CHECK(truth->stamp == bench.now);
+  CHECK(truth->sequence == 100);
+  CHECK(truth->value.scenario_time_s == Approx(0.0).margin(0.0));
+  CHECK(truth->value.x_m == Approx(0.0).margin(0.0));
+  CHECK(bench.samples.latest()->value.started == 0);
+}
+
+TEST_CASE("world task: scenario time counts from the mission's start", "[hal_sim][world]") {
+  Bench bench;
+  bench.run_for(std::chrono::seconds{2});
+  bench.start();
+  bench.run_for(std::chrono::seconds{1});
+  CHECK(bench.task.truth().scenario_time_s == Approx(1.0));
+  const auto* sample = bench.samples.latest();
+  REQUIRE(sample != nullptr);
+  CHECK(sample->value.started == 1);
+  CHECK(sample->value.scenario_time_s == Approx(1.0));
+  CHECK(sample->value.stamp == bench.now);
+  bench.start();
+  bench.run_for(milliseconds{500});
+  CHECK(bench.task.truth().scenario_time_s == Approx(0.5));
+}
+
+TEST_CASE("world task: the boat moves by the box's last command, until the box's time-out",
+          "[hal_sim][world]") {
+  Bench bench;
+  bench.start();
+  for (int i = 0; i < 600; ++i) {
+    REQUIRE(bench.box.command({164, 164}, bench.now));
+    bench.run_for(milliseconds{20});
+  }
+  const double held_m_s = bench.task.truth().surge_m_s;
+  CHECK(held_m_s == Approx(0.222).epsilon(0.02));
+  bench.run_for(milliseconds{900});
+  CHECK(bench.task.truth().surge_m_s == Approx(held_m_s).epsilon(0.01));
+  bench.run_for(std::chrono::seconds{20});
+  CHECK(bench.task.truth().surge_m_s < 0.01);
+}
+
+TEST_CASE("world task: late and missed steps lose no time", "[hal_sim][world]") {
+  Bench regular;
+  Bench late;
+  regular.start();
+  late.start();
+  for (int i = 0; i < 50; ++i) {
+    REQUIRE(regular.box.command({200, 180}, regular.now));
+    REQUIRE(late.box.command({200, 180}, late.now));
+    regular.run_for(milliseconds{100});
+    late.now += milliseconds{37};
+    late.task.step(late.now);
+    late.now += milliseconds{63};
+    late.task.step(late.now);
+  }
+  CHECK(late.task.truth().x_m == Approx(regular.task.truth().x_m).epsilon(1e-3));
+  CHECK(late.task.truth().y_m == Approx(regular.task.truth().y_m).epsilon(1e-3));
+  CHECK(late.task.truth().scenario_time_s == Approx(regular.task.truth().scenario_time_s));
+}
+
+TEST_CASE("world task: one world to a blackboard", "[hal_sim][world]") {
+  Bench bench;
+  SimLink other;
+  CHECK_THROWS_AS((WorldTask{bench.scenario, shipped_vessel(), *bench.board, other}), StartupError);
+}
+
+}  // namespace
+}  // namespace lodesman
