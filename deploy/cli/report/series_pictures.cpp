@@ -19,7 +19,6 @@ using Rows = std::vector<TrajectoryRow>;
 constexpr const char* kBlue = "#005f99";
 constexpr const char* kOrange = "#e69f00";
 constexpr const char* kRed = "#cc3311";
-constexpr const char* kGrey = "#dcdcdc";
 
 std::string line_style(const std::string& dash, const std::string& colour, const std::string& lw) {
   return "with lines dt " + dash + " lc rgb '" + colour + "' lw " + lw;
@@ -106,7 +105,7 @@ void add_pathless(PlotScript& script, const Rows& rows, const Range& height, boo
   const std::vector<Line> boxes = pathless_boxes(rows, height);
   if (!boxes.empty()) {
     script.layer(boxes,
-                 std::string{"with filledcurves closed fs solid noborder fc rgb '"} + kGrey + "'",
+                 "with filledcurves closed fs transparent solid 0.22 noborder fc rgb '#555555'",
                  in_legend ? "no path found" : "");
   }
 }
@@ -115,10 +114,12 @@ PlotScript started(const RunRecord& record) {
   PlotScript script;
   script.command("set title " + plot_text(picture_title(record.result)) +
                  " font 'Sans Bold,15' offset 0,-0.2");
-  script.command("set border lc rgb '#444444'; set tics nomirror; set grid back lc rgb '#c8c8c8'" +
-                 std::string{" lw 0.6 dt (3,3)"});
-  script.command("set lmargin 10; set rmargin 3; set xlabel 'Time [s]'");
-  script.command("set key outside bottom center horizontal samplen 3 width 2");
+  script.command("set border lc rgb '#444444'; set tics nomirror; set format '%g'");
+  script.command("set grid back lt 1 lc rgb '#e4e4e4' lw 1; set xlabel 'Time [s]' offset 0,0.3");
+  script.command("set lmargin at screen 0.09; set rmargin at screen 0.975");
+  script.command("set tmargin at screen 0.92; set bmargin at screen 0.19");
+  script.command("set key at screen 0.5325,0.045 center center vertical Left reverse" +
+                 std::string{" maxrows 1 samplen 3 width 1"});
   script.command("set xrange " + range_text(time_range(record.trajectory)));
   return script;
 }
@@ -181,18 +182,17 @@ void draw_heading(const std::filesystem::path& png, const RunRecord& record) {
   script.command("set multiplot");
   script.command("set tmargin at screen 0.92; set bmargin at screen 0.50");
   script.command("set ylabel 'True heading [deg]'; set yrange " + range_text(heading_range));
-  script.command("set format x ''; unset xlabel; unset key");
+  script.command("set format x ''; unset xlabel; set key off");
   add_pathless(script, rows, heading_range, false);
   script.layer({heading}, line_style("solid", kBlue, "2.5"));
   script.plot();
-  script.command("unset title; set format x '%g'; set xlabel 'Time [s]'");
+  script.command("unset title; set format x '%g'; set xlabel 'Time [s]' offset 0,0.3; set key on");
   script.command("set tmargin at screen 0.45; set bmargin at screen 0.19");
   script.command("set ylabel 'HeadRef [-]'; set ytics 50; set yrange " +
                  range_text(reference_range));
-  script.command("set key at screen 0.5,0.045 center center horizontal samplen 3 width 2");
   add_pathless(script, rows, reference_range, true);
   script.layer({}, line_style("solid", kBlue, "2.5"), "true heading, clockwise from Y");
-  script.layer({head_ref}, line_style("solid", kOrange, "2"), "heading reference");
+  script.layer({head_ref}, line_style("solid", kOrange, "2"), "heading reference (HeadRef)");
   script.plot();
   script.command("unset multiplot");
   draw_picture(png, {.width_px = 1200, .height_px = 700}, script.text());
@@ -208,7 +208,7 @@ void draw_thrust(const std::filesystem::path& png, const RunRecord& record) {
   script.command("set ylabel 'Thrust command [0-255]'; set yrange [0:260]");
   script.command("set ytics (0, 32, 64, 96, 127.5, 160, 192, 224, 255)");
   script.layer({{{times.low, kStop}, {times.high, kStop}}}, line_style("(10,6)", "#666666", "1.5"),
-               "stop (127.5): ahead above, astern below");
+               "stop (127.5)");
   script.layer({steps(rows, left)}, line_style("solid", kOrange, "4"), "left thruster");
   script.layer({steps(rows, right)}, line_style("solid", kBlue, "1.8"), "right thruster");
   script.plot();

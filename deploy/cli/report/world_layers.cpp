@@ -86,8 +86,8 @@ void add_vehicle(PlotScript& script, Point centre, double radius, double heading
 
 void add_path(PlotScript& script, const Line& path) {
   // Yellow alone is faint on white and on green.
-  script.layer({path}, lines("#7a6f00", 4.5));
-  script.layer({path}, lines("#f5e427", 2.5));
+  script.layer({path}, lines("#6b6100", 5.0));
+  script.layer({path}, lines("#ffe81a", 3.2));
 }
 
 void add_current_waypoints(PlotScript& script, const Line& centres, double radius) {

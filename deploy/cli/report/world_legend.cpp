@@ -14,7 +14,7 @@
 namespace lodesman::cli {
 namespace {
 
-constexpr int kColumns = 4;
+constexpr int kMaxColumns = 4;
 constexpr int kRowHeight_px = 27;
 constexpr int kPadding_px = 8;
 constexpr double kInset_px = 30.0;
@@ -107,7 +107,9 @@ std::vector<Entry> entries_for(const LegendNeeds& needs) {
   return entries;
 }
 
-int rows_of(std::size_t entries) { return (static_cast<int>(entries) + kColumns - 1) / kColumns; }
+int rows_of(std::size_t entries) {
+  return (static_cast<int>(entries) + kMaxColumns - 1) / kMaxColumns;
+}
 
 }  // namespace
 
@@ -144,6 +146,7 @@ int legend_height_px(const LegendNeeds& needs) {
 void add_legend(PlotScript& script, const LegendNeeds& needs, int width_px, int picture_height_px) {
   const std::vector<Entry> entries = entries_for(needs);
   const int rows = rows_of(entries.size());
+  const int columns = (static_cast<int>(entries.size()) + rows - 1) / rows;
   const int height_px = legend_height_px(needs);
   script.command("set lmargin at screen 0; set rmargin at screen 1; set bmargin at screen 0");
   script.command("set tmargin at screen " +
@@ -155,7 +158,7 @@ void add_legend(PlotScript& script, const LegendNeeds& needs, int width_px, int 
     // Down the columns, so that what belongs together stands together.
     const int column = static_cast<int>(i) / rows;
     const int row = static_cast<int>(i) % rows;
-    const Point at{kInset_px + column * static_cast<double>(width_px - 20) / kColumns,
+    const Point at{kInset_px + column * static_cast<double>(width_px - 20) / columns,
                    height_px - kPadding_px - (row + 0.5) * kRowHeight_px};
     entries[i].sample(script, at);
     script.command("set label " + plot_text(entries[i].label) + " at " + fixed(at[0] + 28.0, 1) +

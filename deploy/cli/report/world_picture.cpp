@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "deploy/cli/report/gnuplot.h"
@@ -17,14 +18,17 @@ namespace lodesman::cli {
 namespace {
 
 constexpr int kWidth_px = 1200;
-constexpr double kLeft_px = 72.0;  // room of the Y axis' numbers and name
+constexpr double kLeft_px = 84.0;  // room of the Y axis' numbers and name
 constexpr double kRight_px = 18.0;
 constexpr double kGap_px = 22.0;      // between panels side by side
 constexpr double kTitle_px = 40.0;    // of the picture
 constexpr double kCaption_px = 44.0;  // above each panel: two lines
-constexpr double kAxis_px = 30.0;     // below each panel: the numbers of the X axis
+constexpr double kAxis_px = 34.0;     // below each panel: the numbers of the X axis
 constexpr double kAxisName_px = 24.0;
-constexpr double kPanelsHeight_px = 860.0;  // all rows of panels, without their captions
+constexpr double kLabels_px = 18.0;         // inside each panel, left and right: times
+constexpr double kPanelsHeight_px = 780.0;  // all rows of panels, without their captions
+
+constexpr double kLabelGap_m = 0.15;
 
 // Where the panels lie: equal aspect, so one scale for all.
 struct Layout {
@@ -46,8 +50,8 @@ Layout layout_of(const ViewBox& box, int panels) {
     layout.columns = columns;
     layout.rows = (panels + columns - 1) / columns;
     layout.panel_width_px = (kWidth_px - kLeft_px - kRight_px - (columns - 1) * kGap_px) / columns;
-    layout.px_per_m =
-        std::min(layout.panel_width_px / width_m, kPanelsHeight_px / layout.rows / height_m);
+    layout.px_per_m = std::min((layout.panel_width_px - 2.0 * kLabels_px) / width_m,
+                               kPanelsHeight_px / layout.rows / height_m);
     layout.panel_height_px = height_m * layout.px_per_m;
     if (layout.px_per_m > best.px_per_m) {
       best = layout;
@@ -89,31 +93,37 @@ std::vector<double> ghost_times_s(double step_s, double until_s) {
   return times_s;
 }
 
-// Times are written beside the vehicle, away from what it avoids: +1 east, -1 west.
-double side_of_nearest_obstacle(const RunRecord& record, Point at, double t_s) {
+// Where a time is written: abeam of the vehicle, on the side away from what it avoids.
+Point away_from_obstacles(const RunRecord& record, const TrajectoryRow& row) {
+  const double heading_rad = row.heading_deg * std::numbers::pi / 180.0;
+  const Point starboard{std::cos(heading_rad), -std::sin(heading_rad)};
   double nearest_m = std::numeric_limits<double>::infinity();
   double side = 1.0;
   for (const MovingObstacle& obstacle : record.obstacles) {
-    if (!obstacle.exists(t_s)) {
+    if (!obstacle.exists(row.t_s)) {
       continue;
     }
-    for (const Point& point : outline(obstacle.at(t_s))) {
-      const double distance_m = std::hypot(point[0] - at[0], point[1] - at[1]);
+    for (const Point& point : outline(obstacle.at(row.t_s))) {
+      const Point to{point[0] - row.x_m, point[1] - row.y_m};
+      const double distance_m = std::hypot(to[0], to[1]);
       if (distance_m < nearest_m) {
         nearest_m = distance_m;
-        side = at[0] < point[0] ? -1.0 : 1.0;
+        side = to[0] * starboard[0] + to[1] * starboard[1] > 0.0 ? -1.0 : 1.0;
       }
     }
   }
-  return side;
+  return {side * starboard[0], side * starboard[1]};
 }
 
-void add_time_label(PlotScript& script, Point beside, double distance_m, double side, double t_s,
+// `towards`: a direction of length 1 from `centre`.
+void add_time_label(PlotScript& script, Point centre, Point towards, double distance_m, double t_s,
                     const std::string& colour) {
-  script.command("set label " + plot_text(fixed(t_s, t_s < 10.0 ? 1 : 0) + " s") + " at " +
-                 fixed(beside[0] + side * distance_m, 3) + ',' + fixed(beside[1], 3) +
-                 (side < 0.0 ? " right" : " left") + " front font 'Sans,10' tc rgb '" + colour +
-                 "'");
+  const char* anchor = towards[0] > 0.3 ? " left" : towards[0] < -0.3 ? " right" : " center";
+  const bool is_whole = std::abs(t_s - std::round(t_s)) < 1e-6;
+  script.command("set label " + plot_text(fixed(t_s, is_whole ? 0 : 1) + " s") + " at " +
+                 fixed(centre[0] + towards[0] * distance_m, 3) + ',' +
+                 fixed(centre[1] + towards[1] * distance_m, 3) + anchor + " offset 0," +
+                 fixed(0.5 * towards[1], 2) + " front font 'Sans,10' tc rgb '" + colour + "'");
 }
 
 void add_moving_ghosts(PlotScript& script, const RunRecord& record, double t_s, double until_s,
@@ -131,8 +141,8 @@ void add_moving_ghosts(PlotScript& script, const RunRecord& record, double t_s, 
           shape.begin(), shape.end(), [](const Point& a, const Point& b) { return a[0] < b[0]; });
       const double middle_m = ((*west)[0] + (*east)[0]) / 2.0;
       const double side = row->x_m < middle_m ? 1.0 : -1.0;
-      add_time_label(script, {middle_m, (*west)[1]}, ((*east)[0] - (*west)[0]) / 2.0 + 0.15, side,
-                     t_s, obstacle_colour(1.0));
+      add_time_label(script, {middle_m, (*west)[1]}, {side, 0.0},
+                     ((*east)[0] - (*west)[0]) / 2.0 + kLabelGap_m, t_s, obstacle_colour(1.0));
     }
   }
 }
@@ -172,8 +182,8 @@ void add_plan(PlotScript& script, const RunRecord& record, const Moment& moment)
   }
 }
 
-void add_vehicles(PlotScript& script, const RunRecord& record, const Moment& moment, double step_s,
-                  bool shows_estimate) {
+void add_tracks(PlotScript& script, const RunRecord& record, const Moment& moment,
+                bool shows_estimate) {
   Line track;
   Line estimate;
   for (const TrajectoryRow& row : record.trajectory) {
@@ -186,22 +196,37 @@ void add_vehicles(PlotScript& script, const RunRecord& record, const Moment& mom
     add_estimated_trajectory(script, estimate);
   }
   add_trajectory(script, track);
+}
+
+void add_vehicle_ghosts(PlotScript& script, const RunRecord& record, const Moment& moment,
+                        double step_s) {
   const double radius_m = record.vehicle_radius_m;
   for (const double t_s : ghost_times_s(step_s, moment.t_s)) {
     const TrajectoryRow& row = *row_at(record.trajectory, t_s);
     const Point at{row.x_m, row.y_m};
     add_vehicle(script, at, radius_m, row.heading_deg, 0.8 * t_s / moment.t_s);
     if (moment.is_end && t_s > 0.0) {
-      add_time_label(script, at, radius_m + 0.15, side_of_nearest_obstacle(record, at, t_s), t_s,
+      add_time_label(script, at, away_from_obstacles(record, row), radius_m + kLabelGap_m, t_s,
                      vehicle_colour(1.0));
     }
   }
-  if (const TrajectoryRow* row = row_at(record.trajectory, moment.t_s)) {
-    add_vehicle(script, {row->x_m, row->y_m}, radius_m, row->heading_deg, 1.0);
-  }
 }
 
-void set_panel(PlotScript& script, const ViewBox& box, const Layout& layout, int index,
+void add_panel(PlotScript& script, const RunRecord& record, const Moment& moment, double step_s,
+               bool shows_estimate) {
+  add_obstacles(script, record, moment, step_s);
+  add_plan(script, record, moment);
+  add_tracks(script, record, moment, shows_estimate);
+  add_vehicle_ghosts(script, record, moment, step_s);
+  add_start(script, record.start_m);
+  add_goal(script, record.goal_m, record.goal_radius_m);
+  if (const TrajectoryRow* row = row_at(record.trajectory, moment.t_s)) {
+    add_vehicle(script, {row->x_m, row->y_m}, record.vehicle_radius_m, row->heading_deg, 1.0);
+  }
+  script.plot();
+}
+
+void set_panel(PlotScript& script, const ViewBox& box, const Layout& layout, int index, int panels,
                int height_px) {
   const int column = index % layout.columns;
   const int row = index / layout.columns;
@@ -217,11 +242,12 @@ void set_panel(PlotScript& script, const ViewBox& box, const Layout& layout, int
   const double half_m = layout.panel_width_px / layout.px_per_m / 2.0;
   script.command("set xrange [" + fixed(middle_m - half_m, 4) + ":" + fixed(middle_m + half_m, 4) +
                  "]; set yrange [" + fixed(box.low[1], 4) + ":" + fixed(box.high[1], 4) + "]");
-  const std::string step = fixed(nice_step(48.0 / layout.px_per_m), 6);
+  const std::string step = fixed(nice_step(42.0 / layout.px_per_m), 6);
   script.command("set xtics " + step + "; set ytics " + step);
   script.command(column == 0 ? "set format y '%g'; set ylabel 'Y [m]' offset 0.5"
                              : "set format y ''; unset ylabel");
-  script.command("set xlabel 'X [m]' offset 0,0.4");
+  const bool is_lowest = index + layout.columns >= panels;
+  script.command(is_lowest ? "set xlabel 'X [m]' offset 0,0.4" : "unset xlabel");
 }
 
 void set_caption(PlotScript& script, const Moment& moment, int index) {
@@ -247,21 +273,16 @@ void draw_world(const std::filesystem::path& png, const RunRecord& record) {
 
   PlotScript script;
   script.command("set multiplot; unset key; set border lc rgb '#444444'");
-  script.command("set tics nomirror; set grid lc rgb '#dddddd' lw 0.6 dt solid");
+  script.command("set tics nomirror; set grid back lt 1 lc rgb '#e4e4e4' lw 1; set format x '%g'");
   for (int i = 0; i < static_cast<int>(moments.size()); ++i) {
     const Moment& moment = moments[static_cast<std::size_t>(i)];
-    set_panel(script, box, layout, i, height_px);
+    set_panel(script, box, layout, i, static_cast<int>(moments.size()), height_px);
     set_caption(script, moment, i);
     if (i == 0) {
       script.command("set label " + plot_text(picture_title(record.result)) + " at screen 0.5," +
                      fixed(1.0 - 0.55 * kTitle_px / height_px, 6) + " center font 'Sans Bold,15'");
     }
-    add_obstacles(script, record, moment, step_s);
-    add_plan(script, record, moment);
-    add_start(script, record.start_m);
-    add_goal(script, record.goal_m, record.goal_radius_m);
-    add_vehicles(script, record, moment, step_s, needs.estimate);
-    script.plot();
+    add_panel(script, record, moment, step_s, needs.estimate);
   }
   script.command("unset label");
   add_legend(script, needs, kWidth_px, height_px);

@@ -34,6 +34,12 @@ const PlanRecord* first_without_path(const std::vector<PlanRecord>& plans) {
   return any != plans.end() ? &*any : nullptr;
 }
 
+std::string no_path_caption(PathReason reason) {
+  std::string words = to_string(reason);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return reason == PathReason::kNoPath ? words : "no path: " + words;
+}
+
 double end_s(const RunRecord& record) {
   return record.trajectory.empty() ? record.result.time_s : record.trajectory.back().t_s;
 }
@@ -99,9 +105,7 @@ std::vector<Moment> story(const RunRecord& record) {
     add_unless_near(moments, apart_s, {.t_s = *flips.first_s, .caption = "path changes side"});
   }
   if (const PlanRecord* none = first_without_path(record.plans)) {
-    add_unless_near(
-        moments, apart_s,
-        {.t_s = none->t_s, .caption = std::string{"no path: "} + to_string(none->reason)});
+    add_unless_near(moments, apart_s, {.t_s = none->t_s, .caption = no_path_caption(none->reason)});
   }
   if (result.time_of_min_inoffensive_distance_s && result.min_inoffensive_distance_m) {
     add_unless_near(

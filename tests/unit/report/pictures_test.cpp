@@ -128,7 +128,7 @@ TEST_CASE("story: four moments tell of first plan, new side, no path and end", "
   REQUIRE(moments.size() == 4);
   CHECK(moments[0].caption == "first plan");
   CHECK(moments[1].caption == "path changes side");
-  CHECK(moments[2].caption == "no path: start_blocked");
+  CHECK(moments[2].caption == "no path: start blocked");
   CHECK(moments[3].caption == "goal reached");
   REQUIRE(moments[1].replaced != nullptr);
   CHECK(moments[1].replaced->t_s < moments[1].plan->t_s);
@@ -157,7 +157,8 @@ TEST_CASE("pictures: samples to look at", "[.samples]") {
   const std::pair<const char*, cli::RunRecord> runs[] = {{"static", testing::static_run()},
                                                          {"moving", testing::moving_run()},
                                                          {"trap", testing::trap_run()},
-                                                         {"wall", testing::wall_run()}};
+                                                         {"wall", testing::wall_run()},
+                                                         {"nothing", {}}};
   for (const auto& [name, run] : runs) {
     const auto directory = std::filesystem::path{"report_samples"} / name;
     std::filesystem::create_directories(directory);
