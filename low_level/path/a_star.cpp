@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 namespace lodesman {
 namespace {
@@ -197,7 +198,7 @@ PathPixel AStar::next_on_path(const PassableGrid& grid, PathPixel pixel,
   const unsigned moves = moves_from(grid, pixel);
   const std::int32_t cost = cost_to_goal(pixel);
   PathPixel best = pixel;
-  int least = std::numeric_limits<int>::max();
+  auto least = std::pair{std::numeric_limits<int>::max(), 0};
   for (int direction = 0; direction < kDirections; ++direction) {
     const PathPixel next = after(pixel, direction);
     if ((moves >> direction & 1U) == 0 || cost_to_goal(next) != cost - cost_of(direction)) {
@@ -205,7 +206,10 @@ PathPixel AStar::next_on_path(const PassableGrid& grid, PathPixel pixel,
     }
     const int off = off_line(start_, goal, next);
     // Doubled, so that of two equally near the one to starboard is a little nearer.
-    const int distance = 2 * std::abs(off) - (off > 0 ? 1 : 0);
+    const int columns = goal.column - next.column;
+    const int rows = goal.row - next.row;
+    const auto distance =
+        std::pair{2 * std::abs(off) - (off > 0 ? 1 : 0), columns * columns + rows * rows};
     if (distance < least) {
       least = distance;
       best = next;

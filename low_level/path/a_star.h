@@ -36,7 +36,8 @@ struct SearchResult {
 // Which of several cheapest paths is given (the tie-break):
 //   1. From the start on, at every pixel, the step is taken that ends nearest to the straight line
 //      from start to goal, among the steps that lie on any cheapest path.
-//   2. Where two steps end equally near, it is the one that ends to starboard of the line.
+//   2. Where two steps end equally near, it is the one that ends to starboard of the line; of two
+//      on one side, the one that ends nearer to the goal.
 //
 // Why: a cheapest path of eight directions may lie anywhere in a wide parallelogram; this one keeps
 // to the straight line and leaves it only where an obstacle makes it. A vehicle that follows it

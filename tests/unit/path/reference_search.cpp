@@ -34,7 +34,7 @@ std::vector<PathPixel> neighbours(PathPixel of) {
 }
 
 // Of a step's end, the smaller the better: its distance from the line between start and goal, and
-// a little more where that is to port.
+// a little more where that is to port, and a very little for the way to the goal that is left.
 double dislike_of(PathPixel end, PathPixel start, PathPixel goal) {
   const double across = goal.column - start.column;
   const double ahead = start.row - goal.row;
@@ -42,7 +42,8 @@ double dislike_of(PathPixel end, PathPixel start, PathPixel goal) {
   const double off =
       length > 0.0 ? ((end.column - start.column) * ahead - (start.row - end.row) * across) / length
                    : 0.0;
-  return std::abs(off) + (off < 0.0 ? 1e-6 : 0.0);
+  const double left = std::hypot(goal.column - end.column, goal.row - end.row);
+  return std::abs(off) + (off < -1e-9 ? 1e-6 : 0.0) + 1e-12 * left;
 }
 
 }  // namespace

@@ -53,8 +53,8 @@ TEST_CASE("ties: in open water the path never leaves the straight line to the go
       const PathPixel goal = pixel(column, row);
       const int across = column - kApexColumn;
       const int ahead = kApexRow - row;
-      // Near the edge of the fan the line itself is no path: its pixels touch what is outside.
-      if (!in_fan(column, row) || std::abs(across) > 3 * ahead / 2) {
+      // Beyond 45 degrees the fan, one pixel wide at the apex, makes the path begin beside the line.
+      if (!in_fan(column, row) || std::abs(across) > ahead) {
         continue;
       }
       CAPTURE(column, row);
