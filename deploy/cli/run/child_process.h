@@ -23,6 +23,7 @@ class ChildProcess {
   ~ChildProcess();  // stops it
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  [[nodiscard]] pid_t pid() const noexcept { return pid_; }
   // How it ended ("exit status 4", "signal 9"); empty while it runs.
   [[nodiscard]] const std::optional<std::string>& ended();
   // Asks it to end, and kills it when it has not after `patience`.

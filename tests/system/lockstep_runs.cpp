@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole boat in lock-step: what the paper reports, and that nothing but the scenario decides.
+#include <cmath>
+
+#include "deploy/cli/report/run_files.h"
+#include "deploy/cli/run/lockstep_run.h"
+#include "tests/support/catch.h"
+
+using namespace lodesman;
+using namespace lodesman::cli;
+
+namespace {
+
+RunRecord sail(const std::string& scenario_name, const std::string& profile,
+               std::vector<std::string> sets = {}, std::uint64_t seed = 1) {
+  CommonOptions options;
+  options.sets = std::move(sets);
+  const TomlDocument configuration = load_configuration(profile, options);
+  Scenario scenario = load_named_scenario(scenario_name);
+  scenario.seed = seed;
+  const std::function<bool()> never = [] { return false; };
+  const std::function<void(const RunProgress&)> silent = [](const RunProgress&) {};
+  return run_lockstep({configuration, scenario, never, silent, {}});
+}
+
+double to_obstacle_m(const PlanRecord& plan, const RunRecord& record) {
+  const Obstacle& obstacle = record.obstacles.front().at_start;
+  return std::hypot(plan.start_m[0] - obstacle.centre_x_m, plan.start_m[1] - obstacle.centre_y_m);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "paper-static: reached as the paper reports it, with its loss of the path inside the "
+    "protection circle (Figs 4, 5)",
+    "[system]") {
+  const RunRecord record = sail("paper-static", "paper");
+  const RunResult& result = record.result;
+  CHECK(result.outcome == "goal");
+  CHECK(result.time_s >= 88.0);
+  CHECK(result.time_s <= 115.0);
+  CHECK(result.goal_error_m < 0.6);
+  CHECK(result.min_inoffensive_distance_m.value() >= 2.0);
+  CHECK(result.min_inoffensive_distance_m.value() <= 2.5);
+  int inside = 0;
+  for (const auto& plan : record.plans) {
+    const bool blocked = plan.reason == PathReason::kStartBlocked;
+    inside += blocked && to_obstacle_m(plan, record) <= 3.5 ? 1 : 0;
+    CHECK((!blocked || plan.waypoint_source == "previous"));
+  }
+  CHECK(inside >= 1);
+}
+
+TEST_CASE("lock-step: the same scenario gives the same recording, another seed's jitter another",
+          "[system]") {
+  const RunRecord first = sail("paper-static", "paper");
+  const RunRecord second = sail("paper-static", "paper");
+  REQUIRE(first.result.recording_hash.has_value());
+  CHECK(first.result.recording_hash == second.result.recording_hash);
+  const auto jittered = [](std::uint64_t seed) {
+    return sail("paper-static", "paper", {"simulation.lockstep_jitter_s = 0.005"}, seed)
+        .result.recording_hash;
+  };
+  CHECK(jittered(1) == jittered(1));
+  CHECK(jittered(1) != jittered(2));
+  CHECK(jittered(1) != first.result.recording_hash);
+}
+
+TEST_CASE("lock-step: the smallest inoffensive distances are those of eq. 12 (Fig. 7a)",
+          "[system]") {
+  // With C = 1.3 and r_pro = 3.5, eqs 10-12 give 3.44 - r_obs - 0.5.
+  for (const auto& [name, radius_m] :
+       {std::pair{"paper-radius-0.2", 0.2}, std::pair{"paper-radius-0.5", 0.5},
+        std::pair{"paper-radius-1.0", 1.0}, std::pair{"paper-radius-1.5", 1.5}}) {
+    CAPTURE(name);
+    const RunResult result = sail(name, "paper").result;
+    CHECK(result.outcome == "goal");
+    CHECK(result.min_inoffensive_distance_m.value() == Approx(3.44 - radius_m - 0.5).margin(0.1));
+  }
+}
+
+TEST_CASE("lock-step: every plan without a path says why, and every scenario ends by itself",
+          "[system]") {
+  for (const char* name : {"paper-multiple", "paper-moving", "tank-straight"}) {
+    CAPTURE(name);
+    const RunResult result = sail(name, "paper").result;
+    CHECK(result.outcome == "goal");
+    CHECK(result.plans == result.plans_found + result.plans_not_found);
+    CHECK(result.overruns == 0);
+    CHECK(result.stale_events == 0);
+  }
+}
+
+TEST_CASE("lock-step: a heading that falls silent stops the boat, and it goes on when it is back",
+          "[system]") {
+  const auto scenario = TomlDocument::from_text(
+      "name = \"stall\"\nseed = 1\ntime_limit_s = 60.0\n"
+      "[mission]\nstart_m = [0.0, 0.0]\nstart_heading_deg = 0.0\ngoal_m = [0.0, 5.0]\n"
+      "goal_radius_m = 0.5\n[vehicle]\nspeed_m_s = 0.22\nradius_m = 0.5\n"
+      "[[fault]]\ndevice = \"ahrs\"\nkind = \"stall\"\nat_s = 5.0\nduration_s = 4.0\n",
+      "stall.toml");
+  const TomlDocument configuration = load_configuration("paper", {});
+  const Scenario parsed = read_scenario(scenario, load_vessel_parameters());
+  const std::function<bool()> never = [] { return false; };
+  const std::function<void(const RunProgress&)> silent = [](const RunProgress&) {};
+  const RunRecord record = run_lockstep({configuration, parsed, never, silent, {}});
+  CHECK(record.result.outcome == "goal");
+  CHECK(record.result.stale_events >= 1);
+  for (const auto& row : record.trajectory) {
+    const bool stopped = row.thrust_left == 128 && row.thrust_right == 128;
+    if (row.t_s > 5.5 && row.t_s < 9.0) {
+      CHECK(stopped);
+    }
+  }
+}
