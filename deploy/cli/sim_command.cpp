@@ -127,6 +127,21 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
                        scenario, options.wait_start, interrupted, show, on_plan});
 }
 
+// False, and said, when the run directory could not be filled: after a run that is a fault, no
+// refusal.
+[[nodiscard]] bool write_run(const fs::path& directory, const RunRecord& record, bool images) {
+  try {
+    write_run_files(directory, record);
+    if (images) {
+      draw_pictures(directory, record);
+    }
+    return true;
+  } catch (const StartupError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return false;
+  }
+}
+
 [[nodiscard]] int simulate(const SimOptions& options) {
   const TomlDocument configuration = load_configuration(options.profile, options.common);
   const fs::path file = scenario_file(options.scenario);
@@ -147,16 +162,13 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
   if (g_interrupted != 0 && !record.result.reached && record.result.outcome != "fault") {
     record.result.outcome = record.result.collided ? "collision" : "aborted";
   }
-  write_run_files(directory, record);
-  if (!options.no_images) {
-    draw_pictures(directory, record);
-  }
+  const bool written = write_run(directory, record, !options.no_images);
   if (options.common.json) {
     fmt::print("{}", result_json(record.result));
   } else if (!options.common.quiet) {
     print_summary(record, directory, !options.no_images);
   }
-  return exit_status_of(record.result);
+  return written ? exit_status_of(record.result) : kExitFault;
 }
 
 void add_options(CLI::App& command, SimOptions& options) {

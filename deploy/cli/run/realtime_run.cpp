@@ -103,6 +103,9 @@ RunRecord run_realtime(const RealtimeRun& run) {
     watcher.poll();
     fault = processes.fault();
     const RunProgress progress = watcher.progress();
+    if (!fault.empty() && progress.state == MissionState::kIdle) {
+      throw StartupError(fault);  // it refused to start, and has said why
+    }
     if (progress.scenario_time_s >= run.scenario.time_limit_s) {
       break;
     }
