@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Every third-party package, all from Debian; deploy/packages.txt names the packages.
+# Every third-party package, all from Debian; deploy/packages.sh names the packages.
 
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)

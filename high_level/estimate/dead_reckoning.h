@@ -26,12 +26,18 @@ class DeadReckoning {
   // A fix: the estimate moves towards it by a share in [0, 1].
   void correct(const WorldPoint& fix, double share) noexcept;
 
+  // As of the last whole step.
   [[nodiscard]] const WorldPoint& position() const noexcept { return position_; }
+  // Carried on to `now` within the step that has begun, so that a pose belongs to its stamp.
+  [[nodiscard]] WorldPoint position_at(Time now, int surge_ref, Heading heading) const noexcept;
   [[nodiscard]] double speed_m_s(int surge_ref) const noexcept {
     return options_.speed_per_surge_ref_m_s * surge_ref;
   }
 
  private:
+  [[nodiscard]] Eigen::Vector2d travelled_m(Duration time, int surge_ref,
+                                            Heading heading) const noexcept;
+
   static constexpr int kMaxSteps = 10;
   DeadReckoningOptions options_;
   WorldPoint position_;

@@ -52,11 +52,11 @@ std::optional<VehiclePose> PoseHistory::at(Time at) const noexcept {
 }
 
 void Replanner::start(Time now) noexcept {
-  started_ = now;
+  heard_ = now;
   pending_.reset();
   asked_.reset();
   planned_frame_ = 0;
-  blind_ = false;
+  silence_said_ = false;
   plan_ = Plan{};
 }
 
@@ -87,7 +87,8 @@ const Plan* Replanner::answer(Time now, const SonarPath& path, double range_m) n
   }
   const Pending pending = *pending_;
   pending_.reset();
-  blind_ = false;
+  heard_ = now;
+  silence_said_ = false;
   describe(pending, path.reason);
   if (path.reason == PathReason::kFound) {
     place_waypoints({path.pixels.data(), path.pixel_count}, SonarView{range_m}, pending.pose,
@@ -101,21 +102,17 @@ const Plan* Replanner::answer(Time now, const SonarPath& path, double range_m) n
   return &plan_;
 }
 
-const Plan* Replanner::no_frame(Time now, bool frame_is_fresh) noexcept {
-  const bool given_up = pending_ && now - pending_->asked > options_.answer_patience;
-  if (given_up) {
+const Plan* Replanner::silence(Time now) noexcept {
+  if (pending_ && now - pending_->asked > options_.answer_patience) {
     pending_.reset();
   }
-  const bool just_started = !asked_ && now - started_ <= options_.answer_patience;
-  if ((frame_is_fresh && !given_up) || just_started || blind_) {
+  if (silence_said_ || now - heard_ <= options_.silence_limit) {
     return nullptr;
   }
-  blind_ = true;
+  silence_said_ = true;
+  plan_ = Plan{};
   plan_.id = next_id_++;
   plan_.reason = PathReason::kNoFrame;
-  plan_.source = WaypointSource::kNone;
-  plan_.path_id = 0;
-  plan_.waypoint_count = 0;
   return &plan_;
 }
 

@@ -19,6 +19,7 @@ namespace lodesman {
 struct ReplannerOptions {
   Duration replan_period{};    // at the earliest so long after the last request; the paper: 1.6 s
   Duration answer_patience{};  // a request unanswered for so long is given up
+  Duration silence_limit{};    // without any answer for so long, nothing is followed
   double waypoint_interval_m = 0.0;  // [m] the paper's C
   Duration previous_path_max_age{};  // previous waypoints are dropped when their frame is older
 };
@@ -40,7 +41,9 @@ class PoseHistory {
 
 class Replanner {
  public:
-  explicit Replanner(const ReplannerOptions& options) noexcept : options_{options} {}
+  // first_id: above every id that an earlier program has used.
+  explicit Replanner(const ReplannerOptions& options, std::uint64_t first_id = 1) noexcept
+      : options_{options}, next_id_{first_id} {}
 
   // Forgets plans and goal: a mission starts.
   void start(Time now) noexcept;
@@ -53,10 +56,9 @@ class Replanner {
   // Steps 11-12 for the answer to the pending request; nothing for any other answer.
   [[nodiscard]] const Plan* answer(Time now, const SonarPath& path, double range_m) noexcept;
 
-  // The plan when no sonar frame is fresh, or the pending request is given up: nothing is known, so
-  // nothing is followed. Empty while there is still hope, and when that was said already; the
-  // first frame of a mission is waited for as long as an answer is.
-  [[nodiscard]] const Plan* no_frame(Time now, bool frame_is_fresh) noexcept;
+  // The plan once there was no answer for longer than the limit, because no sonar frame came, none
+  // could be placed, or PathFinder is silent: nothing is known, so nothing is followed. Said once.
+  [[nodiscard]] const Plan* silence(Time now) noexcept;
 
  private:
   struct Pending {
@@ -73,10 +75,10 @@ class Replanner {
   ReplannerOptions options_;
   std::optional<Pending> pending_;
   std::optional<Time> asked_;
-  Time started_{};
+  Time heard_{};  // when the last answer came, or the mission started
   std::uint64_t planned_frame_ = 0;
-  std::uint64_t next_id_ = 1;
-  bool blind_ = false;
+  std::uint64_t next_id_;
+  bool silence_said_ = false;
   Plan plan_;
 };
 

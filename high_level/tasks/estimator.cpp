@@ -26,8 +26,9 @@ void EstimatorTask::step(Time now) noexcept {
   }
   VehicleState state;
   state.valid_at = now;
-  state.x_m = dead_reckoning_.position().xy_m.x();
-  state.y_m = dead_reckoning_.position().xy_m.y();
+  const WorldPoint position = dead_reckoning_.position_at(now, surge_ref, heading);
+  state.x_m = position.xy_m.x();
+  state.y_m = position.xy_m.y();
   state.heading_rad = heading.rad();
   state.surge_m_s = dead_reckoning_.speed_m_s(surge_ref);
   states_.publish(state, now);
@@ -52,7 +53,8 @@ bool EstimatorTask::update_position(Time now, Heading heading, int surge_ref) no
   }
   if (fix->sequence != used_fix_) {
     used_fix_ = fix->sequence;
-    const WorldPoint at = local_frame_.to_world({fix->value.latitude_deg, fix->value.longitude_deg});
+    const WorldPoint at =
+        local_frame_.to_world({fix->value.latitude_deg, fix->value.longitude_deg});
     dead_reckoning_.correct(at, has_fix_ ? options_.gps_correction : 1.0);
     has_fix_ = true;
   }

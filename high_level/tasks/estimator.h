@@ -14,9 +14,9 @@ namespace lodesman {
 struct EstimatorOptions {
   PositionSource source = PositionSource::kDeadReckoning;
   DeadReckoningOptions dead_reckoning;
-  double gps_correction = 0.0;        // [-] (0, 1] share of the way to each fix
-  WorldPoint start;                   // where dead reckoning starts
-  GeoPoint origin;  // of the world frame
+  double gps_correction = 0.0;  // [-] (0, 1] share of the way to each fix
+  WorldPoint start;             // where dead reckoning starts
+  GeoPoint origin;              // of the world frame
 };
 
 class EstimatorTask final : public Task {

@@ -1,14 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "high_level/tasks/planner.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace lodesman {
 
+namespace {
+
+// A frame is given its full age before its absence counts.
+[[nodiscard]] ReplannerOptions with_silence_limit(ReplannerOptions options) noexcept {
+  options.silence_limit = options.replan_period + max_age::kSonarFrame;
+  return options;
+}
+
+// Above those of a program that was here before, so that a late answer to it fits no question.
+[[nodiscard]] std::uint64_t first_free_id(const Blackboard& board) {
+  Reader<Plan> plans{board.plan};
+  Reader<PathRequest> requests{board.path_request};
+  const auto* plan = plans.latest();
+  const auto* request = requests.latest();
+  return 1 +
+         std::max(plan != nullptr ? plan->value.id : 0, request != nullptr ? request->value.id : 0);
+}
+
+}  // namespace
+
 PlannerTask::PlannerTask(Blackboard& board, Role role, PlannerOptions options)
     : options_{std::move(options)},
       mission_{options_.mission},
-      replanner_{options_.replanner},
+      replanner_{with_silence_limit(options_.replanner), first_free_id(board)},
       orders_{board.operator_command},
       vehicle_state_{board.vehicle_state},
       obstacles_{board.sonar_obstacles},
@@ -62,7 +83,7 @@ void PlannerTask::replan(Time now) noexcept {
       requests_.publish(*request, now);
     }
   }
-  publish(replanner_.no_frame(now, frame != nullptr), now);
+  publish(replanner_.silence(now), now);
 }
 
 void PlannerTask::publish(const Plan* plan, Time now) noexcept {

@@ -50,3 +50,13 @@ TEST_CASE("dead reckoning: a fix draws the estimate by its share", "[high_level]
   reckoning.correct({{4.0, -2.0}}, 1.0);
   CHECK(reckoning.position().xy_m.y() == Approx(-2.0));
 }
+
+TEST_CASE("dead reckoning: between two steps the position is carried on to the time asked for",
+          "[high_level][estimate]") {
+  DeadReckoning reckoning{kPaper, {}};
+  reckoning.advance(Time{}, 16, {});
+  reckoning.advance(Time{milliseconds{300}}, 16, {});
+  CHECK(reckoning.position().xy_m.y() == Approx(0.22 * 0.2));
+  CHECK(reckoning.position_at(Time{milliseconds{300}}, 16, {}).xy_m.y() == Approx(0.22 * 0.3));
+  CHECK(reckoning.position().xy_m.y() == Approx(0.22 * 0.2));
+}

@@ -12,7 +12,9 @@ namespace {
 
 Time s(double seconds) { return Time{from_seconds(seconds)}; }
 
-ReplannerOptions paper() { return {from_seconds(1.6), from_seconds(0.5), 1.3, from_seconds(1e6)}; }
+ReplannerOptions paper() {
+  return {from_seconds(1.6), from_seconds(0.5), from_seconds(3.6), 1.3, from_seconds(1e6)};
+}
 
 // A boat that sails north at 1 m/s along x = 3, heading north, for 20 s.
 PoseHistory northward() {
@@ -137,30 +139,40 @@ TEST_CASE("replanner: an answer to another question is none", "[high_level][guid
   CHECK(replanner.answer(s(18.2), *found(*request), 30.0) == nullptr);
 }
 
-TEST_CASE("replanner: the first frame of a mission is waited for, but not for ever",
+TEST_CASE("replanner: a request without an answer is given up and asked again, with a new number",
           "[high_level][guidance]") {
-  Replanner replanner{paper()};
-  replanner.start(s(10.0));
-  CHECK(replanner.no_frame(s(10.4), false) == nullptr);
-  const Plan* plan = replanner.no_frame(s(10.6), false);
-  REQUIRE(plan != nullptr);
-  CHECK(plan->reason == PathReason::kNoFrame);
+  Replanner replanner{paper(), 40};
+  replanner.start(s(16.0));
+  const PoseHistory poses = northward();
+  const auto first = replanner.request(s(17.0), 1, s(17.0), {{3.0, 20.0}}, poses);
+  REQUIRE(first);
+  CHECK(first->id == 40);
+  (void)replanner.silence(s(17.4));
+  CHECK_FALSE(replanner.request(s(19.0), 2, s(19.0), {{3.0, 20.0}}, poses));
+  (void)replanner.silence(s(17.6));
+  const auto second = replanner.request(s(19.0), 2, s(19.0), {{3.0, 20.0}}, poses);
+  REQUIRE(second);
+  CHECK(second->id == 41);
 }
 
-TEST_CASE("replanner: a blind sonar or a silent PathFinder leaves nothing to follow, said once",
+TEST_CASE("replanner: without any answer for too long nothing is followed, whatever the cause",
           "[high_level][guidance]") {
   Replanner replanner{paper()};
+  replanner.start(s(14.0));
   const PoseHistory poses = northward();
-  const auto request = replanner.request(s(18), 1, s(18), {{3.0, 20.0}}, poses);
-  CHECK(replanner.no_frame(s(18.1), true) == nullptr);
-  const Plan* given_up = replanner.no_frame(s(18.6), true);
-  REQUIRE(given_up != nullptr);
-  CHECK(given_up->reason == PathReason::kNoFrame);
-  CHECK(given_up->waypoint_count == 0);
-  CHECK(replanner.no_frame(s(18.7), false) == nullptr);
-  const auto again = replanner.request(s(19.7), 2, s(19.6), {{3.0, 20.0}}, poses);
+  const auto request = replanner.request(s(15.0), 1, s(15.0), {{3.0, 20.0}}, poses);
+  CHECK(replanner.answer(s(15.1), *found(*request), 30.0)->waypoint_count > 0);
+  CHECK(replanner.silence(s(18.7)) == nullptr);
+  // Frames come, but none that can be placed: their capture time is unknown.
+  CHECK_FALSE(replanner.request(s(18.71), 2, s(3.0), {{3.0, 20.0}}, poses));
+  const Plan* blind = replanner.silence(s(18.71));
+  REQUIRE(blind != nullptr);
+  CHECK(blind->reason == PathReason::kNoFrame);
+  CHECK(blind->source == WaypointSource::kNone);
+  CHECK(blind->waypoint_count == 0);
+  CHECK(blind->captured == Time{});
+  CHECK(replanner.silence(s(18.8)) == nullptr);  // said once
+  const auto again = replanner.request(s(19.7), 3, s(19.6), {{3.0, 20.0}}, poses);
   REQUIRE(again);
-  CHECK(again->id > request->id + 1);
   CHECK(replanner.answer(s(19.8), *found(*again), 30.0)->source == WaypointSource::kCurrent);
-  CHECK(replanner.no_frame(s(19.9), false) != nullptr);
 }
