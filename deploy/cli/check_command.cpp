@@ -45,8 +45,10 @@ void add_check_command(CLI::App& root, int& exit_status) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* command = root.add_subcommand("check", "Validate configuration and scenario files");
   command
-      ->add_option("FILE", options->files,
-                   "A file with [mission] is a scenario; any other is laid over default.toml")
+      ->add_option(
+          "FILE", options->files,
+          "A file with [mission] is a scenario, one with [vessel] the vessel; any other is laid "
+          "over default.toml")
       ->required();
   add_common_options(*command, options->common);
   command->footer("Example: lodesman check boat.toml scenarios/*.toml");

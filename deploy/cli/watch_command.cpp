@@ -27,6 +27,7 @@ struct WatchOptions {
 };
 
 constexpr Duration kRedrawPeriod = std::chrono::seconds{1};
+constexpr Duration kOnceLook = std::chrono::seconds{2};  // plans are 1.6 s apart
 constexpr Duration kPatience = std::chrono::milliseconds{200};
 
 volatile std::sig_atomic_t g_stopped = 0;
@@ -100,7 +101,7 @@ void look_on(BoardWatch& watch, const SharedBlackboard& board, Duration period) 
   std::signal(SIGTERM, [](int) { g_stopped = 1; });
   BoardWatch watch{*board};
   if (options.once || options.common.json) {
-    look_on(watch, board, kRedrawPeriod);
+    look_on(watch, board, kOnceLook);
     const SegmentState state = state_of(segment, board, watch);
     if (options.common.json) {
       fmt::print("{}\n", to_json(state).dump(-1, ' ', false,
@@ -114,8 +115,11 @@ void look_on(BoardWatch& watch, const SharedBlackboard& board, Duration period) 
   if (terminal) {
     fmt::print("\x1b[2J");
   }
-  while (g_stopped == 0) {
+  for (;;) {
     look_on(watch, board, kRedrawPeriod);
+    if (g_stopped != 0) {
+      break;
+    }
     const SegmentState state = state_of(segment, board, watch);
     terminal ? redraw(table_lines(state, true)) : print(table_lines(state, false));
     if (!state.low_alive) {
@@ -136,7 +140,7 @@ void add_watch_command(CLI::App& root, int& exit_status) {
       ->add_option("--segment", options->segment,
                    "Which one, where several boats run; default: the only /dev/shm/lodesman-*")
       ->type_name("NAME");
-  command->add_flag("--once", options->once, "Look on for a second and print one table");
+  command->add_flag("--once", options->once, "Look on for two seconds and print one table");
   add_common_options(*command, options->common);
   command->footer("Example: lodesman watch --once\n\n'!' marks what is stale or gone.");
   command->callback([options, &exit_status] { exit_status = watch(*options); });

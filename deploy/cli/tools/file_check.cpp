@@ -19,6 +19,11 @@ void check(const std::string& file, const CommonOptions& common, std::string& ki
     (void)load_scenario(file, load_vessel_parameters());
     return;
   }
+  if (document.root().has("vessel")) {
+    kind = "vessel";
+    (void)load_vessel(file);
+    return;
+  }
   kind = "configuration";
   CommonOptions with_file = common;
   with_file.config_files.push_back(file);

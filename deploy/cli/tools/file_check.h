@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a file is a valid scenario or configuration overlay, and if not, why not. One thread.
+// Whether a file is a valid scenario, vessel or configuration overlay, and if not, why not. One
+// thread.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,15 +12,15 @@ namespace lodesman::cli {
 
 struct FileCheck {
   std::string file;
-  std::string kind;   // "scenario", "configuration"; "unknown" where it cannot be read
+  std::string kind;   // "scenario", "vessel", "configuration"; "unknown" where it cannot be read
   std::string error;  // one line `file:line: key: reason`; empty where all is well
 
   [[nodiscard]] bool ok() const noexcept { return error.empty(); }
   [[nodiscard]] nlohmann::ordered_json to_json() const;
 };
 
-// A file with [mission] is a scenario. Any other is laid over default.toml and the overlays of
-// `common`, as the programs would.
+// A file with [mission] is a scenario, one with [vessel] the simulated vessel. Any other is laid
+// over default.toml and the overlays of `common`, as the programs would.
 [[nodiscard]] FileCheck check_file(const std::string& file, const CommonOptions& common);
 
 // For commands that read no configuration: what is given must be right all the same.
