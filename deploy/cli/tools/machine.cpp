@@ -106,7 +106,11 @@ void measure_shm(MachineFacts& facts) {
 void measure_configuration(const CommonOptions& common, MachineFacts& facts) {
   try {
     const fs::path share = share_directory();
-    facts.configuration = share.string();
+    // A directory that is named and holds no configuration is none.
+    std::error_code ignored;
+    if (fs::exists(share / "deploy" / "config" / "default.toml", ignored)) {
+      facts.configuration = share.string();
+    }
     (void)load_configuration("default", common);
     (void)load_configuration("paper", common);
     const VesselParameters vessel = load_vessel_parameters();

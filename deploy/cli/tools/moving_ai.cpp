@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/cli/tools/moving_ai.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
