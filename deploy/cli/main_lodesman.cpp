@@ -2,11 +2,15 @@
 // lodesman: the operator's command.
 #include <CLI/CLI.hpp>
 
+#include "deploy/cli/check_command.h"
+#include "deploy/cli/doctor_command.h"
 #include "deploy/cli/operator_commands.h"
+#include "deploy/cli/plan_command.h"
 #include "deploy/cli/run/process_main.h"
 #include "deploy/cli/segment_command.h"
 #include "deploy/cli/sim_command.h"
 #include "deploy/cli/version.h"
+#include "deploy/cli/watch_command.h"
 
 int main(int argc, char** argv) {
   using namespace lodesman::cli;
@@ -18,5 +22,9 @@ int main(int argc, char** argv) {
   add_sim_command(app, exit_status);
   add_operator_commands(app, exit_status);
   add_segment_command(app, exit_status);
+  add_plan_command(app, exit_status);
+  add_check_command(app, exit_status);
+  add_watch_command(app, exit_status);
+  add_doctor_command(app, exit_status);
   return process_main(app, argc, argv, [&] { return exit_status; });
 }

@@ -7,41 +7,14 @@
 #include <limits>
 #include <utility>
 
+#include "low_level/path/moves.h"
+
 namespace lodesman {
 namespace {
 
-constexpr int kDirections = 8;
-
-// Clockwise from straight ahead, so that odd directions are diagonals.
-struct Step {
-  int column;
-  int row;
-};
-constexpr std::array<Step, kDirections> kSteps{
-    {{0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}}};
 constexpr std::int32_t cost_of(int direction) noexcept {
-  return direction % 2 == 0 ? kStraightCost : kDiagonalCost;
+  return is_diagonal(direction) ? kDiagonalCost : kStraightCost;
 }
-
-// For each pattern of PassableGrid::around(): a bit a direction in which a step may be taken.
-constexpr std::array<std::uint8_t, 512> make_moves() noexcept {
-  std::array<std::uint8_t, 512> moves{};
-  for (unsigned pattern = 0; pattern < moves.size(); ++pattern) {
-    const auto free = [pattern](int column, int row) {
-      return (pattern >> ((row + 1) * 3 + column + 1) & 1U) != 0;
-    };
-    unsigned allowed = 0;
-    for (unsigned d = 0; d < kDirections; ++d) {
-      const Step step = kSteps[d];
-      if (free(step.column, step.row) && free(step.column, 0) && free(0, step.row)) {
-        allowed |= 1U << d;
-      }
-    }
-    moves[pattern] = static_cast<std::uint8_t>((pattern >> 4 & 1U) != 0 ? allowed : 0);
-  }
-  return moves;
-}
-constexpr std::array<std::uint8_t, 512> kMoves = make_moves();
 
 // How far a pixel lies off the line from start to goal, in units of that line's length in pixels;
 // positive to starboard of it.

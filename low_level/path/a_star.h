@@ -10,12 +10,10 @@
 #include <vector>
 
 #include "low_level/path/grid.h"
+#include "low_level/path/moves.h"
 #include "mid_level/messages/path.h"
 
 namespace lodesman {
-
-inline constexpr std::int32_t kStraightCost = 10;
-inline constexpr std::int32_t kDiagonalCost = 14;
 
 struct SearchLimits {
   // Every pixel of the view is taken from the open list once at most, so this default never ends
