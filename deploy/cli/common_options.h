@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options that every command of `lodesman` has, and how a command joins the program.
+// The options that every command of `lodesman` has, and the exit statuses of the
+// contract. The main thread.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +25,24 @@ struct CommonOptions {
   std::vector<std::string> config_files;  // overlays, in order
   std::vector<std::string> sets;          // section.key=value
 };
+
+// Digits alone, up to what a scenario file can hold: CLI11 by itself wraps negative numbers round.
+inline void add_seed_option(CLI::App& command, std::optional<std::uint64_t>& seed) {
+  command
+      .add_option_function<std::string>(
+          "--seed",
+          [&seed](const std::string& text) {
+            std::int64_t value = -1;
+            const char* end = text.data() + text.size();
+            const auto parsed = std::from_chars(text.data(), end, value);
+            if (parsed.ec != std::errc{} || parsed.ptr != end || value < 0) {
+              throw CLI::ValidationError("--seed", "must be from 0 to 9223372036854775807");
+            }
+            seed = static_cast<std::uint64_t>(value);
+          },
+          "Seed instead of the scenario's")
+      ->type_name("N");
+}
 
 inline void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_flag("--json", options.json, "Print one JSON document on standard output");

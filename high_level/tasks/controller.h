@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The controller task: tracks the waypoints of the newest plan with constant surge and the P
 // controller of the heading (eqs 7-9); neutral, with the reason, whenever an input is missing.
+// Stepped by its runner's thread.
 #pragma once
 
 #include "high_level/guidance/waypoints.h"

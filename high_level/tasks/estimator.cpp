@@ -53,8 +53,8 @@ bool EstimatorTask::update_position(Time now, Heading heading, int surge_ref) no
   }
   if (fix->sequence != used_fix_) {
     used_fix_ = fix->sequence;
-    const WorldPoint at =
-        local_frame_.to_world({fix->value.latitude_deg, fix->value.longitude_deg});
+    const GeoPoint geodetic{fix->value.latitude_deg, fix->value.longitude_deg};
+    const WorldPoint at = local_frame_.to_world(geodetic);
     dead_reckoning_.correct(at, has_fix_ ? options_.gps_correction : 1.0);
     has_fix_ = true;
   }

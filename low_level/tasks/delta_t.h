@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The DeltaT task: takes pings from the sonar, publishes them, and publishes the obstacles in them;
 // or, for a known scene, draws its obstacles at the estimated pose as the paper did in its tank.
+// Stepped by its runner's thread.
 #pragma once
 
 #include <memory>
@@ -16,7 +17,7 @@
 namespace lodesman {
 
 struct DeltaTOptions {
-  SegmentationOptions segmentation;
+  SegmentationOptions segmentation{};
   std::optional<OwnZones> own_zones;  // empty: the protection zones that came with the obstacles
   // The scenario's obstacles, for the known-obstacle source; empty: obstacles come from echoes.
   std::optional<std::vector<MovingObstacle>> known_scene;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The PathFinder task: answers each path request once, in the sonar frame that it names.
+// Stepped by its runner's thread.
 #pragma once
 
 #include <memory>

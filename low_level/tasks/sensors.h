@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The AHRS and position tasks: publish what the devices say, each sample once.
+// The AHRS and position tasks: publish what the devices say, each sample once. Each is stepped by
+// its runner's thread.
 #pragma once
 
 #include "drivers/hal/devices.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Thruster task: turns the helm's references into thrust commands (eqs 13-14) and hands them to
 // the box; neutral whenever the helm has fallen silent, in every mode.
+// Stepped by its runner's thread.
 #pragma once
 
 #include "drivers/hal/devices.h"

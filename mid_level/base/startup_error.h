@@ -10,10 +10,20 @@ namespace lodesman {
 
 class StartupError : public std::runtime_error {
  public:
-  explicit StartupError(const std::string& one_line) : std::runtime_error{one_line} {}
+  explicit StartupError(const std::string& text) : std::runtime_error{one_line(text)} {}
   StartupError(const std::string& file, std::size_t line, const std::string& key,
                const std::string& reason)
-      : std::runtime_error{file + ":" + std::to_string(line) + ": " + key + ": " + reason} {}
+      : StartupError{file + ":" + std::to_string(line) + ": " + key + ": " + reason} {}
+
+ private:
+  // Names and keys of files may hold anything; a refusal is one line that harms no terminal.
+  [[nodiscard]] static std::string one_line(std::string text) {
+    constexpr std::size_t kMaxLength = 1000;
+    for (char& c : text) {
+      c = (c >= '\0' && c < ' ') || c == '\x7f' ? '?' : c;
+    }
+    return text.size() <= kMaxLength ? text : text.substr(0, kMaxLength) + "...";
+  }
 };
 
 }  // namespace lodesman

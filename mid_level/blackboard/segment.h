@@ -42,6 +42,8 @@ class SharedBlackboard {
   // Maps it read-only, for a program that only looks on.
   [[nodiscard]] static SharedBlackboard observe(const std::string& name, Duration patience);
 
+  SharedBlackboard(const SharedBlackboard&) = delete;
+  SharedBlackboard& operator=(const SharedBlackboard&) = delete;
   SharedBlackboard(SharedBlackboard&&) noexcept;
   SharedBlackboard& operator=(SharedBlackboard&&) noexcept;
   // The maker also removes the name.

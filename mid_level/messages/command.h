@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the operator's word to the propellers: mission, plan, helm, thrust.
+// From the operator's word to the propellers: mission, plan, helm, thrust. Plain data for
+// the blackboard; any thread.
 #pragma once
 
 #include <algorithm>

@@ -44,7 +44,7 @@ template <class M, class T>
 struct MeasuredField {
   const char* name;
   T M::*member;
-  static constexpr bool measured = true;
+  static constexpr bool kMeasured = true;
 };
 template <class M, class T>
 [[nodiscard]] constexpr MeasuredField<M, T> measured_field(const char* name,
@@ -94,7 +94,7 @@ template <class Sink, class M>
 void visit_message(Sink& sink, const M& message) {
   const auto visit_one = [&](const auto& f) {
     if constexpr (
-        requires { f.measured; } && requires { Sink::kSkipMeasured; }) {
+        requires { f.kMeasured; } && requires { Sink::kSkipMeasured; }) {
       return;
     } else if constexpr (requires { f.count; }) {
       visit_elements(sink, f.name, message.*(f.member),

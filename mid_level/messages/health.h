@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the tasks themselves are doing.
+// Plain data for the blackboard; any thread.
 #pragma once
 
 #include <cstdint>

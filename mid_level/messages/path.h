@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The question that the planner asks of PathFinder, and the answer.
+// Plain data for the blackboard; any thread.
 #pragma once
 
 #include <algorithm>

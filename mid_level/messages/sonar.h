@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the sonar saw: the ping as the head delivers it, and the obstacles found in it.
+// Plain data for the blackboard; any thread.
 #pragma once
 
 #include <algorithm>

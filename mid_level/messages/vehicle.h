@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the vehicle is and which way it points: what the sensors say, and what is made of it.
+// Plain data for the blackboard; any thread.
 #pragma once
 
 #include <cstdint>

@@ -27,6 +27,29 @@ namespace {
   return node.source().begin.line == 0 ? 1 : node.source().begin.line;
 }
 
+// toml++ bounds the depth of values and not that of dotted keys, and frees tables by recursion: a
+// key of a hundred thousand parts would overflow the stack. Gives the line of the first key with
+// too many parts; 0 where there is none. Consecutive dots are no key.
+[[nodiscard]] std::size_t line_of_deep_key(std::string_view text) {
+  constexpr int kMaxParts = 16;
+  int dots = 0;
+  std::size_t line = 1;
+  char last = ' ';
+  for (const char c : text) {
+    if (c == '.' && last != '.') {
+      ++dots;
+    } else if (std::string_view{".=,\n[]{}#"}.find(c) != std::string_view::npos) {
+      dots = 0;
+    }
+    if (dots >= kMaxParts) {
+      return line;
+    }
+    line += c == '\n' ? 1 : 0;
+    last = c;
+  }
+  return 0;
+}
+
 [[noreturn]] void refuse_node(const toml::node& node, const TomlDocument::Impl& document,
                               const std::string& key, const std::string& reason) {
   throw StartupError(file_of(node, document), line_of(node), key, reason);
@@ -72,6 +95,7 @@ namespace {
 }
 
 // Moves nodes, since toml++ forgets where a copied node was written.
+// NOLINTNEXTLINE(misc-no-recursion): as deep as the document, which from_text() bounds
 void overlay_table(toml::table& base, toml::table& over, const std::string& path,
                    const TomlDocument::Impl& document) {
   for (auto&& [key, node] : over) {
@@ -84,11 +108,14 @@ void overlay_table(toml::table& base, toml::table& over, const std::string& path
     if (old->is_table() && node.is_table()) {
       overlay_table(*old->as_table(), *node.as_table(), here, document);
     } else {
-      node.visit([&](auto& value) { base.insert_or_assign(key.str(), std::move(value)); });
+      node.visit([&, name = key.str()](auto& value) {
+        base.insert_or_assign(name, std::move(value));  // clang 14 captures no binding
+      });
     }
   }
 }
 
+// NOLINTNEXTLINE(misc-no-recursion): as deep as the document, which from_text() bounds
 void require_read(const toml::node& node, const TomlDocument::Impl& document,
                   const std::string& path) {
   if (!path.empty() && !document.read.contains(&node)) {
@@ -135,6 +162,9 @@ TomlDocument TomlDocument::from_file(const std::filesystem::path& path) {
 TomlDocument TomlDocument::from_text(std::string_view text, const std::string& name) {
   if (text.size() > kMaxBytes) {
     throw StartupError(name, 1, "file", "is larger than 1 MiB");
+  }
+  if (const std::size_t line = line_of_deep_key(text); line != 0) {
+    throw StartupError(name, line, "toml", "a key of too many parts");
   }
   auto impl = std::make_unique<Impl>();
   impl->name = name;

@@ -45,6 +45,8 @@ class TomlDocument {
   [[nodiscard]] static TomlDocument from_file(const std::filesystem::path& path);
   // `name` stands for the file in messages.
   [[nodiscard]] static TomlDocument from_text(std::string_view text, const std::string& name);
+  TomlDocument(const TomlDocument&) = delete;
+  TomlDocument& operator=(const TomlDocument&) = delete;
   TomlDocument(TomlDocument&&) noexcept;
   TomlDocument& operator=(TomlDocument&&) noexcept;
   ~TomlDocument();

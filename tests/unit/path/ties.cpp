@@ -53,7 +53,8 @@ TEST_CASE("ties: in open water the path never leaves the straight line to the go
       const PathPixel goal = pixel(column, row);
       const int across = column - kApexColumn;
       const int ahead = kApexRow - row;
-      // Beyond 45 degrees the fan, one pixel wide at the apex, makes the path begin beside the line.
+      // Beyond 45 degrees the fan, one pixel wide at the apex, makes the path begin beside the
+      // line.
       if (!in_fan(column, row) || std::abs(across) > ahead) {
         continue;
       }

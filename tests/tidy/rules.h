@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The house rules that a program can check, each a function from a file to what is wrong in it.
+// Pure; one thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/tidy/source_file.h"
+
+namespace lodesman::tidy {
+
+// "path:line: what", as compilers say it.
+using Findings = std::vector<std::string>;
+
+struct Rule {
+  const char* name;
+  Findings (*check)(const SourceFile& file);
+};
+
+// Every rule that looks at one file at a time.
+[[nodiscard]] const std::vector<Rule>& rules();
+
+// Includes follow the arrows between the rooms.
+[[nodiscard]] Findings include_arrows(const SourceFile& file);
+// A library's headers stay in the rooms that wrap it.
+[[nodiscard]] Findings library_rooms(const SourceFile& file);
+[[nodiscard]] Findings clocks_and_sleeps(const SourceFile& file);
+[[nodiscard]] Findings locks(const SourceFile& file);
+[[nodiscard]] Findings log_calls(const SourceFile& file);
+[[nodiscard]] Findings chance(const SourceFile& file);
+[[nodiscard]] Findings conditionals(const SourceFile& file);
+[[nodiscard]] Findings truth_readers(const SourceFile& file);
+[[nodiscard]] Findings long_lines(const SourceFile& file);
+[[nodiscard]] Findings long_files(const SourceFile& file);
+[[nodiscard]] Findings long_functions(const SourceFile& file);
+[[nodiscard]] Findings licence_line(const SourceFile& file);
+[[nodiscard]] Findings header_opening(const SourceFile& file);
+[[nodiscard]] Findings message_units(const SourceFile& file);
+[[nodiscard]] Findings machine_paths(const SourceFile& file);
+[[nodiscard]] Findings unfinished(const SourceFile& file);
+
+// Every .cpp is named in a CMakeLists.txt of its directory or one above it.
+[[nodiscard]] Findings unlisted_sources(const std::vector<SourceFile>& tree);
+
+}  // namespace lodesman::tidy
