@@ -12,9 +12,8 @@
 #include "mid_level/blackboard/segment.h"
 #include "mid_level/runtime/run_realtime.h"
 
+namespace lodesman {
 namespace {
-
-using namespace lodesman;
 
 constexpr Duration kSegmentPatience = std::chrono::seconds{5};
 
@@ -110,8 +109,10 @@ int run(const cli::ProcessOptions& options, bool start_by_itself) {
 }
 
 }  // namespace
+}  // namespace lodesman
 
 int main(int argc, char** argv) {
+  namespace cli = lodesman::cli;
   cli::block_stop_signals();
   CLI::App app{"The high level: estimator, re-planner, guidance, control and mission",
                "lodesman-high"};
@@ -120,5 +121,6 @@ int main(int argc, char** argv) {
   bool start_by_itself = false;
   app.add_flag("--start", start_by_itself, "Start the mission without an operator's word");
   spdlog::set_level(spdlog::level::warn);
-  return cli::process_main(app, argc, argv, [&] { return run(options, start_by_itself); });
+  return cli::process_main(app, argc, argv,
+                           [&] { return lodesman::run(options, start_by_itself); });
 }

@@ -7,9 +7,8 @@
 #include "mid_level/blackboard/segment.h"
 #include "mid_level/runtime/run_realtime.h"
 
+namespace lodesman {
 namespace {
-
-using namespace lodesman;
 
 int run(const cli::ProcessOptions& options) {
   const TomlDocument configuration = TomlDocument::from_file(options.configuration_file);
@@ -31,11 +30,13 @@ int run(const cli::ProcessOptions& options) {
 }
 
 }  // namespace
+}  // namespace lodesman
 
 int main(int argc, char** argv) {
+  namespace cli = lodesman::cli;
   cli::block_stop_signals();
   CLI::App app{"The low level: devices, sonar, path finder and thrusters", "lodesman-low"};
   cli::ProcessOptions options;
   cli::add_process_options(app, options);
-  return cli::process_main(app, argc, argv, [&] { return run(options); });
+  return cli::process_main(app, argc, argv, [&] { return lodesman::run(options); });
 }

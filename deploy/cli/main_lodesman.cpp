@@ -13,18 +13,18 @@
 #include "deploy/cli/watch_command.h"
 
 int main(int argc, char** argv) {
-  using namespace lodesman::cli;
+  namespace cli = lodesman::cli;
   CLI::App app{"Sees underwater obstacles with a forward-looking sonar and steers round them",
                "lodesman"};
-  app.set_version_flag("--version", kVersion);
+  app.set_version_flag("--version", cli::kVersion);
   app.require_subcommand(1);
   int exit_status = 0;
-  add_sim_command(app, exit_status);
-  add_operator_commands(app, exit_status);
-  add_segment_command(app, exit_status);
-  add_plan_command(app, exit_status);
-  add_check_command(app, exit_status);
-  add_watch_command(app, exit_status);
-  add_doctor_command(app, exit_status);
-  return process_main(app, argc, argv, [&] { return exit_status; });
+  cli::add_sim_command(app, exit_status);
+  cli::add_operator_commands(app, exit_status);
+  cli::add_segment_command(app, exit_status);
+  cli::add_plan_command(app, exit_status);
+  cli::add_check_command(app, exit_status);
+  cli::add_watch_command(app, exit_status);
+  cli::add_doctor_command(app, exit_status);
+  return cli::process_main(app, argc, argv, [&] { return exit_status; });
 }

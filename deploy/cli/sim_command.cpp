@@ -4,12 +4,14 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "deploy/cli/common_options.h"
 #include "deploy/cli/report/plots.h"
@@ -19,6 +21,7 @@
 #include "deploy/cli/run/progress.h"
 #include "deploy/cli/run/realtime_run.h"
 #include "deploy/cli/run/settings.h"
+#include "deploy/cli/run/simulated_boat.h"
 #include "deploy/cli/run/view_saver.h"
 #include "deploy/cli/version.h"
 
@@ -53,6 +56,12 @@ volatile std::sig_atomic_t g_interrupted = 0;
     throw StartupError("--out: " + directory.string() + ": " + error.message());
   }
   return directory;
+}
+
+[[nodiscard]] std::string read_text(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream{file, std::ios::binary}.rdbuf();
+  return text.str();
 }
 
 void write_text(const fs::path& file, const std::string& text) {
@@ -143,14 +152,20 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
 }
 
 [[nodiscard]] int simulate(const SimOptions& options) {
+  if (options.time_limit_s && std::isnan(*options.time_limit_s)) {  // in no range, says CLI11 not
+    throw StartupError("--time-limit: must be a number from 1 to 1000000");
+  }
   const TomlDocument configuration = load_configuration(options.profile, options.common);
   const fs::path file = scenario_file(options.scenario);
   Scenario scenario = load_named_scenario(file.string());
   scenario.seed = options.seed.value_or(scenario.seed);
   scenario.time_limit_s = options.time_limit_s.value_or(scenario.time_limit_s);
+  require_devices(configuration, scenario);
+  const std::string scenario_text = read_text(file);  // before it may be overwritten
+  // Nothing is refused any more: now there may be files.
   const fs::path directory = run_directory(options, scenario);
   write_text(directory / "config.toml", configuration.to_text());
-  fs::copy_file(file, directory / "scenario.toml", fs::copy_options::overwrite_existing);
+  write_text(directory / "scenario.toml", scenario_text);
 
   std::signal(SIGINT, [](int) { g_interrupted = 1; });
   std::signal(SIGTERM, [](int) { g_interrupted = 1; });
@@ -181,7 +196,7 @@ void add_options(CLI::App& command, SimOptions& options) {
       ->check(CLI::IsMember({"default", "paper"}));
   command.add_option("--out", options.out, "Run directory [runs/<UTC time>-<scenario>]")
       ->type_name("DIR");
-  command.add_option("--seed", options.seed, "Seed instead of the scenario's")->type_name("N");
+  add_seed_option(command, options.seed);
   command.add_option("--time-limit", options.time_limit_s, "Instead of the scenario's")
       ->type_name("S")
       ->check(CLI::Range(1.0, 1e6));

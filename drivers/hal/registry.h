@@ -26,13 +26,14 @@ class DeviceRegistry {
     factories_.insert_or_assign(scheme, std::move(factory));
   }
 
-  // Throws StartupError, naming the schemes there are, when the address fits none.
+  // Throws StartupError, naming the schemes there are, when the address fits none. What it says is
+  // the reason alone: the caller knows in which file the address stands.
   [[nodiscard]] std::unique_ptr<Contract> make(const std::string& address) const {
     const auto colon = address.find(':');
     const auto found = factories_.find(address.substr(0, colon));
     if (colon == std::string::npos || found == factories_.end()) {
-      throw StartupError("devices." + contract_ + ": \"" + address +
-                         "\" is no address; known: " + known_schemes());
+      throw StartupError("\"" + address + "\" is no address of a " + contract_ +
+                         "; known: " + known_schemes());
     }
     return found->second(std::string_view{address}.substr(colon + 1));
   }

@@ -185,9 +185,9 @@ std::filesystem::path find_scenario(const std::string& name_or_path,
     if (std::filesystem::is_regular_file(file, error)) {
       return file;
     }
-    looked += " or " + file.string();
+    looked += ", nor " + file.string();
   }
-  throw StartupError("scenario: there is no file " + name_or_path + looked);
+  throw StartupError(name_or_path, 1, "file", "there is no such file" + looked);
 }
 
 }  // namespace lodesman

@@ -27,7 +27,7 @@ void add_process_options(CLI::App& app, ProcessOptions& options) {
   app.add_option("--config", options.configuration_file, "Configuration with every key")
       ->required();
   app.add_option("--scenario", options.scenario_file, "Scenario to simulate")->required();
-  app.add_option("--seed", options.seed, "Seed instead of the scenario's");
+  add_seed_option(app, options.seed);
 }
 
 void block_stop_signals() {

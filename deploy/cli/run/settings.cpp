@@ -39,6 +39,10 @@ TomlDocument load_configuration(const std::string& profile, const CommonOptions&
     configuration.overlay(TomlDocument::from_file(file));
   }
   for (const auto& set : options.sets) {
+    const auto equals = set.find('=');
+    if (equals == 0 || equals == std::string::npos || set.find('\n') != std::string::npos) {
+      throw StartupError("--set", 1, set, "must be SECTION.KEY=VALUE");
+    }
     configuration.overlay(TomlDocument::from_text(set, "--set"));
   }
   (void)read_low_level_options(configuration.root());

@@ -11,6 +11,9 @@
 
 namespace lodesman::cli {
 
+// Refuses, with the place in the configuration, a device address that a simulation cannot make.
+void require_devices(const TomlDocument& configuration, const Scenario& scenario);
+
 class SimulatedBoat {
  public:
   SimulatedBoat(Blackboard& board, const TomlDocument& configuration, const Scenario& scenario);

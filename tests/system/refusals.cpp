@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the programs must refuse, end to end: exit status 2, one line on standard error, nothing on
+// standard output and nothing written.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/catch.h"
+
+namespace lodesman {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kGood = R"(name = "good"
+seed = 1
+time_limit_s = 200.0
+[mission]
+start_m = [0.0, 0.0]
+start_heading_deg = 0.0
+goal_m = [0.0, 20.0]
+goal_radius_m = 0.5
+[vehicle]
+speed_m_s = 0.22
+radius_m = 0.5
+[[obstacle]]
+shape = "circle"
+centre_m = [0.0, 10.0]
+radius_m = 0.5
+protection_m = 3.5
+velocity_m_s = [0.0, -0.11]
+stop_at_m = [0.0, 0.0]
+[[obstacle]]
+shape = "ellipse"
+centre_m = [3.0, 14.0]
+semi_axes_m = [1.5, 0.4]
+angle_deg = 30.0
+protection_semi_axes_m = [4.0, 2.0]
+[sonar]
+beams = 120
+[[fault]]
+device = "ahrs"
+kind = "stall"
+at_s = 20.0
+duration_s = 5.0
+)";
+
+[[nodiscard]] std::string replaced(const std::string& old, const std::string& by) {
+  const auto place = kGood.find(old);
+  REQUIRE(place != std::string::npos);
+  std::string text = kGood;
+  return text.replace(place, old.size(), by);
+}
+
+[[nodiscard]] std::string repeated(const std::string& part, std::size_t times) {
+  std::string text;
+  for (std::size_t i = 0; i < times; ++i) {
+    text += part;
+  }
+  return text;
+}
+
+[[nodiscard]] std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream{file, std::ios::binary}.rdbuf();
+  return text.str();
+}
+
+struct Outcome {
+  int status = -1;
+  std::string out;
+  std::string error;
+};
+
+// A directory of its own for each row, in which the program runs.
+class Bench {
+ public:
+  Bench() {
+    std::string pattern = (fs::temp_directory_path() / "lodesman-refusals-XXXXXX").string();
+    REQUIRE(mkdtemp(pattern.data()) != nullptr);
+    place_ = pattern;
+  }
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
+  ~Bench() { fs::remove_all(place_); }
+
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream{place_ / name, std::ios::binary} << text;
+    written_ += 1;
+  }
+  [[nodiscard]] Outcome run(const std::string& program, std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), program);
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) {
+      argv.push_back(argument.data());
+    }
+    argv.push_back(nullptr);
+    const fs::path streams = place_.string() + ".streams";
+    fs::create_directories(streams);
+    const pid_t child = fork();
+    if (child == 0) {
+      constexpr unsigned kWatchdog_s = 60;
+      const bool ready = chdir(place_.c_str()) == 0 &&
+                         freopen((streams / "out").c_str(), "w", stdout) != nullptr &&
+                         freopen((streams / "error").c_str(), "w", stderr) != nullptr;
+      alarm(kWatchdog_s);
+      if (ready) {
+        execv(program.c_str(), argv.data());
+      }
+      _exit(127);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
+                    text_of(streams / "out"), text_of(streams / "error")};
+    fs::remove_all(streams);
+    return outcome;
+  }
+  // Whether the program left anything behind.
+  [[nodiscard]] bool untouched() const {
+    return std::distance(fs::directory_iterator{place_}, fs::directory_iterator{}) == written_;
+  }
+
+ private:
+  fs::path place_;
+  std::ptrdiff_t written_ = 0;
+};
+
+void check_refused(const Bench& bench, const Outcome& outcome, const std::string& line) {
+  CHECK(outcome.status == 2);
+  CHECK(outcome.out.empty());
+  CHECK(std::count(outcome.error.begin(), outcome.error.end(), '\n') == 1);
+  CHECK(outcome.error.ends_with('\n'));
+  CHECK(std::regex_search(outcome.error, std::regex{line}));
+  CHECK(bench.untouched());
+}
+
+[[nodiscard]] std::vector<std::string> simulation_of(const std::string& scenario,
+                                                     const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments{"sim", scenario, "--lockstep", "--no-images", "--out", "out"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+// A scenario's text and how its refusal begins.
+struct ScenarioRow {
+  std::string text;
+  std::string line;
+};
+
+void check_scenarios(const std::vector<ScenarioRow>& rows) {
+  for (const ScenarioRow& row : rows) {
+    INFO(row.line << "\n" << row.text.substr(0, 300));
+    Bench bench;
+    bench.write("s.toml", row.text);
+    check_refused(bench, bench.run(LODESMAN_PROGRAM, simulation_of("s.toml")),
+                  "^s\\.toml:" + row.line);
+  }
+}
+
+TEST_CASE("refusals: sim refuses a bad scenario with one line and writes nothing",
+          "[system][refusals]") {
+  check_scenarios({
+      {replaced("name = \"good\"\n", ""), "1: name: missing"},
+      {replaced("\"good\"", "\"../good\""), "1: name: "},
+      {replaced("\"good\"", "3"), "1: name: must be a text"},
+      {replaced("seed = 1", "seed = -1"), "2: seed: "},
+      {replaced("seed = 1", "seed = 1.5"), "2: seed: "},
+      {replaced("seed = 1", "seed = 1\nseed = 2"), "3: toml: "},
+      {replaced("seed = 1", "sed = 1"), "1: seed: missing"},
+      {replaced("seed = 1", "seed = 1\nspeed = 1"), "3: speed: unknown key"},
+      {replaced("= 200.0", "= 0.0"), "3: time_limit_s: "},
+      {replaced("= 200.0", "= -1.0"), "3: time_limit_s: "},
+      {replaced("= 200.0", "= inf"), "3: time_limit_s: must be finite"},
+      {replaced("= 200.0", "= nan"), "3: time_limit_s: must be finite"},
+      {replaced("= 200.0", "= 10.0"), "7: mission\\.goal_m: "},
+      {replaced("= 200.0", "= 1979-05-27"), "3: time_limit_s: must be a number"},
+      {replaced("[mission]", "[missoin]"), "1: mission: missing"},
+      {replaced("start_m = [0.0, 0.0]", "start_m = [0.0]"), "5: mission\\.start_m: "},
+      {replaced("start_m = [0.0, 0.0]", "start_m = [0.0, \"a\"]"), "5: mission\\.start_m: "},
+      {replaced("start_m = [0.0, 0.0]", "start_m = {x = 0, y = 0}"), "5: mission\\.start_m: "},
+      {replaced("goal_m = [0.0, 20.0]", "goal_m = [0.0, nan]"), "7: mission\\.goal_m: "},
+      {replaced("goal_m = [0.0, 20.0]", "goal_m = [0.0, 1e9]"), "7: mission\\.goal_m: "},
+      {replaced("goal_radius_m = 0.5", "goal_radius_m = 0.0"), "8: mission\\.goal_radius_m: "},
+      {replaced("speed_m_s = 0.22", ""), "9: vehicle"},
+      {replaced("speed_m_s = 0.22", "speed_m_s = 0.22\nsurge_ref = 16"), "1[01]: vehicle"},
+      {replaced("speed_m_s = 0.22", "speed_m_s = 5.0"), "10: vehicle\\.speed_m_s: "},
+      {replaced("speed_m_s = 0.22", "surge_ref = 0"), "10: vehicle\\.surge_ref: "},
+      {replaced("speed_m_s = 0.22", "surge_ref = 101"), "10: vehicle\\.surge_ref: "},
+      {replaced("\"circle\"", "\"square\""), "13: obstacle\\[0\\]\\.shape: "},
+      {replaced("\"circle\"", "7"), "13: obstacle\\[0\\]\\.shape: "},
+      {replaced("centre_m = [0.0, 10.0]\n", ""), "12: obstacle\\[0\\]\\.centre_m: missing"},
+      {replaced("radius_m = 0.5\nprotection", "radius_m = -0.5\nprotection"), "15: obstacle"},
+      {replaced("protection_m = 3.5", "protection_m = 0.1"), "16: obstacle\\[0\\]\\.protection_m"},
+      {replaced("stop_at_m = [0.0, 0.0]", "stop_at_m = [3.0, 0.0]"), "18: obstacle"},
+      {replaced("velocity_m_s = [0.0, -0.11]\n", ""), "17: obstacle\\[0\\]\\.stop_at_m: "},
+      {replaced("[1.5, 0.4]", "[1.5, 0.0]"), "22: obstacle\\[1\\]\\.semi_axes_m: "},
+      {replaced("[4.0, 2.0]", "[1.0, 2.0]"), "24: obstacle\\[1\\]\\.protection_semi_axes_m: "},
+      {replaced("angle_deg = 30.0", "angle_rad = 0.5"), "[0-9]+: obstacle\\[1\\]\\.angle_"},
+      {replaced("beams = 120", "beams = 100000"), "26: sonar\\.beams: "},
+      {replaced("beams = 120", "beams = 12.5"), "26: sonar\\.beams: "},
+      {replaced("beams = 120", "ping_hz = 0.0"), "26: sonar\\.ping_hz: "},
+      {replaced("beams = 120", "noise = \"loud\""), "26: sonar\\.noise: "},
+      {replaced("[sonar]", "[radar]"), "25: radar: unknown key"},
+      {replaced("\"ahrs\"", "\"rudder\""), "28: fault\\[0\\]\\.device: "},
+      {replaced("\"stall\"", "\"explode\""), "29: fault\\[0\\]\\.kind: "},
+      {replaced("duration_s = 5.0", "duration_s = -5.0"), "31: fault\\[0\\]\\.duration_s: "},
+      {replaced("at_s = 20.0\n", ""), "27: fault\\[0\\]\\.at_s: missing"},
+  });
+}
+
+TEST_CASE("refusals: sim refuses hostile files as it does bad ones", "[system][refusals]") {
+  using namespace std::string_literals;
+  const std::string obstacle =
+      "[[obstacle]]\nshape = \"circle\"\ncentre_m = [9.0, 9.0]\n"
+      "radius_m = 0.5\nprotection_m = 1.0\n";
+  check_scenarios({
+      {"", "1: name: missing"},
+      {repeated("#", 2U << 20U), "1: file: is larger than 1 MiB"},
+      {"\0"s + kGood, "1: toml: "},
+      {kGood + "# \0\n"s, "32: toml: "},
+      {"\xff\xfe" + kGood, "1: toml: "},
+      {kGood + "# \xc3\x28\n", "32: toml: "},
+      {"\x7f"
+       "ELF\x02\x01\x01",
+       "1: toml: "},
+      {"a = " + repeated("[", 100'000), "1: toml: "},
+      {"a = " + repeated("{b = ", 100'000), "1: toml: "},
+      {"[" + repeated("a.", 100'000) + "a]", "1: toml: "},
+      {repeated("a.", 100'000) + "a = 1", "1: toml: "},
+      {repeated("\"\" . ", 100'000) + "a = 1", "1: toml: "},
+      {"x = [" + repeated("1,", 400'000) + "]\n" + kGood, "1: x: unknown key"},
+      {kGood + repeated(obstacle, 100), "[0-9]+: obstacle: must be at most 64"},
+      {replaced("goal_m =", "waypoints_m = [" + repeated("[0.0, 1.0],", 50'000) + "]\ngoal_m ="),
+       "7: mission\\.waypoints_m: "},
+      {"\"a\\nb\" = 1\n" + kGood, "1: a\\?b: unknown key"},
+      {"\"a\\u001b[2J\" = 1\n" + kGood, "1: a\\?"},
+      {repeated("k", 500'000) + " = 1\n" + kGood, "1: kkk"},
+      {replaced("\"good\"", "\"" + repeated("x", 500'000) + "\""), "1: name: "},
+      {replaced("\"good\"", "\"go\nod\""), "1: toml: "},
+      {replaced("seed = 1", "seed = 99999999999999999999"), "2: toml: "},
+      {"<html>", "1: toml: "},
+  });
+}
+
+// Options of sim on a good scenario; a file of configuration, if the row has one.
+struct OptionRow {
+  std::vector<std::string> options;
+  std::string line;
+  std::string overlay;
+};
+
+TEST_CASE("refusals: sim refuses bad options and configurations", "[system][refusals]") {
+  const std::vector<std::string> over{"--config", "c.toml"};
+  const std::vector<OptionRow> rows{
+      {{"--set", ""}, "^--set:1: : must be SECTION.KEY=VALUE", ""},
+      {{"--set", "garbage"}, "^--set:1: garbage: must be", ""},
+      {{"--set", "=1"}, "^--set:1: =1: must be", ""},
+      {{"--set", "x=1"}, "^--set:1: x: unknown key", ""},
+      {{"--set", "planner.foo=1"}, "^--set:1: planner.foo: unknown key", ""},
+      {{"--set", "zones.margin_m="}, "^--set:1: toml: ", ""},
+      {{"--set", "zones.margin_m=\"a\""}, "^--set:1: zones.margin_m: must be a number", ""},
+      {{"--set", "zones.margin_m=-1"}, "^--set:1: zones.margin_m: must be at least", ""},
+      {{"--set", "zones.margin_m=nan"}, "^--set:1: zones.margin_m: must be finite", ""},
+      {{"--set", "zones=1"}, "^--set:1: zones", ""},
+      {{"--set", "zones.margin_m=1\nzones.hull_radius_m=1"}, "^--set:1: .*: must be", ""},
+      {{"--set", "zones.source=\"mine\""}, "^--set:1: zones.source: must be one of", ""},
+      {{"--set", "command_socket.port=70000"}, "^--set:1: command_socket.port: ", ""},
+      {{"--set", "devices.sonar=\"\""}, "^--set:1: devices.sonar: ", ""},
+      {{"--set", "devices.sonar=\"sim\""}, "^--set:1: devices.sonar: .*known: sim", ""},
+      {{"--set", "devices.heading=\"foo:bar\""}, "^--set:1: devices.heading: ", ""},
+      {{"--profile", "fast"}, "--profile", ""},
+      {{"--seed", "-1"}, "--seed", ""},
+      {{"--seed", "1.5"}, "--seed", ""},
+      {{"--seed", "abc"}, "--seed", ""},
+      {{"--seed", "99999999999999999999"}, "--seed", ""},
+      {{"--time-limit", "0"}, "--time-limit", ""},
+      {{"--time-limit", "nan"}, "--time-limit", ""},
+      {{"--console", "maybe"}, "--console", ""},
+      {{"--bogus"}, "--bogus", ""},
+      {{"--config", "nothere.toml"}, "^nothere.toml:1: file: cannot be read", ""},
+      {{"--config", "/"}, "^/:1: file: cannot be read", ""},
+      {over, "^c.toml:1: sonar: unknown key", "[sonar]\nrange_m = 3\n"},
+      {over, "^c.toml:2: planner.waypoint_interval_m: ", "[planner]\nwaypoint_interval_m = -1\n"},
+      {over, "^c.toml:3: planner.typo: unknown key", "[planner]\n\ntypo = 1\n"},
+      {over, "^c.toml:2: toml: ", "[planner]\n= 3\n"},
+      {over, "^c.toml:1: file: is larger", repeated("\n", 2U << 20U)},
+      {over, "^c.toml:1: toml: ", "\xff"},
+      {over, "^c.toml:2: devices.thrusters: ", "[devices]\nthrusters = \"can:0\"\n"},
+  };
+  for (const OptionRow& row : rows) {
+    INFO(row.line << "\n" << row.overlay.substr(0, 100));
+    Bench bench;
+    bench.write("s.toml", kGood);
+    if (!row.overlay.empty()) {
+      bench.write("c.toml", row.overlay);
+    }
+    check_refused(bench, bench.run(LODESMAN_PROGRAM, simulation_of("s.toml", row.options)),
+                  row.line);
+  }
+}
+
+TEST_CASE("refusals: sim refuses what is no readable file", "[system][refusals]") {
+  for (const std::string name : {"nothere.toml", ".", "/", "/dev/null", ""}) {
+    INFO(name);
+    const Bench bench;
+    check_refused(bench, bench.run(LODESMAN_PROGRAM, simulation_of(name)), ": ");
+  }
+  Bench bench;
+  bench.write("s.toml", kGood);
+  bench.write("taken", "");
+  check_refused(bench,
+                bench.run(LODESMAN_PROGRAM, {"sim", "s.toml", "--lockstep", "--out", "taken/out"}),
+                "^--out: ");
+}
+
+TEST_CASE("refusals: lodesman-low refuses before it makes a segment", "[system][refusals]") {
+  struct Row {
+    std::string configuration;
+    std::string scenario;
+    std::string line;
+  };
+  const std::string configuration = text_of(LODESMAN_CONFIGURATION);
+  const std::vector<Row> rows{
+      {"", kGood, "^c.toml:1: [a-z_.]+: missing"},
+      {"[planner", kGood, "^c.toml:1: toml: "},
+      {configuration, "", "^s.toml:1: name: missing"},
+      {configuration, replaced("seed = 1", "seed = -1"), "^s.toml:2: seed: "},
+      {configuration, replaced("beams = 120", "bans = 120"), "^s.toml:26: sonar.bans: unknown"},
+  };
+  for (const Row& row : rows) {
+    INFO(row.line);
+    Bench bench;
+    bench.write("c.toml", row.configuration);
+    bench.write("s.toml", row.scenario);
+    const std::string segment = "lodesman-refusals-" + std::to_string(getpid());
+    check_refused(bench,
+                  bench.run(LODESMAN_LOW_PROGRAM,
+                            {"--segment", segment, "--config", "c.toml", "--scenario", "s.toml"}),
+                  row.line);
+    CHECK_FALSE(fs::exists("/dev/shm/" + segment));
+  }
+}
+
+}  // namespace
+}  // namespace lodesman
