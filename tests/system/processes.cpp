@@ -268,7 +268,7 @@ TEST_CASE("processes: an interrupt ends a run cleanly, with a result", "[system]
 TEST_CASE("processes: fifty random kills of the high level", "[.campaign]") {
   const Scratch scratch{"campaign"};
   Boat boat{scratch};
-  std::mt19937 random{std::random_device{}()};
+  std::mt19937 random{static_cast<unsigned>(SteadyClock{}.now().time_since_epoch().count())};
   std::vector<double> neutral_s;
   for (int i = 0; i < 50; ++i) {
     neutral_s.push_back(neutral_after_kill_s(boat, random));
