@@ -164,8 +164,12 @@ TomlTable TomlDocument::root() const { return {*impl_, &impl_->table, ""}; }
 void TomlDocument::require_all_keys_read() const { require_read(impl_->table, *impl_, ""); }
 
 std::string TomlDocument::to_text() const {
+  // Literal texts are written wrongly by toml++ 3.3 where they hold quotes and a line end.
+  constexpr auto kFlags =
+      toml::toml_formatter::default_flags &
+      ~(toml::format_flags::allow_literal_strings | toml::format_flags::allow_multi_line_strings);
   std::ostringstream text;
-  text << impl_->table << "\n";
+  text << toml::toml_formatter{impl_->table, kFlags} << "\n";
   return text.str();
 }
 

@@ -149,6 +149,15 @@ TEST_CASE("toml: letters beyond ASCII stand in texts and comments only", "[mid_l
   }
 }
 
+TEST_CASE("toml: a document written out is read the same, whatever its texts hold",
+          "[mid_level][config]") {
+  const auto document = TomlDocument::from_text(
+      "x = \"a'''b\\n\\\"\\\\\\u0001\\u007f\\u00e9\"\ny = -0.1\nz = 1.0\n", "w.toml");
+  const auto again = TomlDocument::from_text(document.to_text(), "again.toml");
+  CHECK(again.root().text("x", 99) == "a'''b\n\"\\\x01\x7f\u00e9");
+  CHECK(again.to_text() == document.to_text());
+}
+
 TEST_CASE("toml: what cannot be parsed is refused with its line", "[mid_level][config]") {
   const auto refusal =
       refusal_of([] { (void)TomlDocument::from_text("a = 1\na = 2\n", "d.toml"); });
