@@ -46,7 +46,7 @@ volatile std::sig_atomic_t g_interrupted = 0;
 
 [[nodiscard]] fs::path run_directory(const SimOptions& options, const Scenario& scenario) {
   const std::time_t now = std::time(nullptr);
-  const fs::path directory =
+  fs::path directory =
       options.out.empty()
           ? fs::path{"runs"} / fmt::format("{:%Y%m%dT%H%M%SZ}-{}", fmt::gmtime(now), scenario.name)
           : fs::path{options.out};

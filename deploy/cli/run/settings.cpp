@@ -8,7 +8,9 @@ namespace lodesman::cli {
 namespace fs = std::filesystem;
 
 fs::path share_directory() {
-  if (const char* named = std::getenv("LODESMAN_SHARE"); named != nullptr && *named != '\0') {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody writes it
+  const char* named = std::getenv("LODESMAN_SHARE");
+  if (named != nullptr && *named != '\0') {
     return named;
   }
   std::error_code error;
