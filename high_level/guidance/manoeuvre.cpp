@@ -80,33 +80,43 @@ const ManoeuvreChooser::Choice& ManoeuvreChooser::choose(Time now, const OwnMoti
   choice_.manoeuvre = {0.0, 0.0, speed_share_max};
   choice_.of_route = foresee(choice_.manoeuvre, nullptr);
   choice_.foresight = choice_.of_route;
+  // With nothing in the way no other manoeuvre is there sooner.
+  if (choice_.of_route.delay_s > 0.0) {
+    consider_all();
+    stay_with_last();
+  }
+  choice_.changed = !(choice_.manoeuvre == kept_);
+  kept_ = choice_.manoeuvre;
+  choice_.way.clear();
+  (void)foresee(choice_.manoeuvre, &choice_.way);
+  return choice_;
+}
+
+void ManoeuvreChooser::consider_all() noexcept {
   for (const double share : kSlowShares) {
     for (const double length_m : kLengths_m) {
-      consider({0.0, length_m / response_.speed_max_m_s, std::min(share, speed_share_max)});
+      consider({0.0, length_m / response_.speed_max_m_s, std::min(share, speed_share_max_)});
     }
   }
   for (const double offset_deg : kOffsets_deg) {
     for (const double length_m : kLengths_m) {
       for (const double share : kSpeedShares) {
         consider({to_rad(offset_deg), length_m / response_.speed_max_m_s,
-                  std::min(share, speed_share_max)});
+                  std::min(share, speed_share_max_)});
       }
     }
   }
+}
+
+void ManoeuvreChooser::stay_with_last() noexcept {
   // The manoeuvre under way is left only for one that is better by the stated gain.
   Manoeuvre kept = kept_;
-  kept.speed_share = std::min(kept.speed_share, speed_share_max);
+  kept.speed_share = std::min(kept.speed_share, speed_share_max_);
   const Foresight of_kept = foresee(kept, nullptr);
-  choice_.changed = !(choice_.manoeuvre == kept);
-  if (choice_.changed && of_kept.cost_s <= choice_.foresight.cost_s + options_.switch_gain_s) {
+  if (of_kept.cost_s <= choice_.foresight.cost_s + options_.switch_gain_s) {
     choice_.manoeuvre = kept;
     choice_.foresight = of_kept;
-    choice_.changed = false;
   }
-  kept_ = choice_.manoeuvre;
-  choice_.way.clear();
-  (void)foresee(choice_.manoeuvre, &choice_.way);
-  return choice_;
 }
 
 void ManoeuvreChooser::foresee_hazards(Time now, const Tracks& tracks) noexcept {
@@ -241,6 +251,7 @@ Foresight ManoeuvreChooser::foresee(const Manoeuvre& manoeuvre, Route* way) cons
   }
   const double left_m =
       arrived ? 0.0 : (point_at(route, place) - own.p_W).norm() + remaining_m(route, place);
+  out.delay_s = cost_s;
   out.cost_s = cost_s + t_s + left_m / r.speed_max_m_s;
   if (way != nullptr) {
     // Back on the route, ahead of where it was left.

@@ -51,6 +51,7 @@ struct Manoeuvre {
 // What came of one, in thought.
 struct Foresight {
   double cost_s = 0.0;             // [s] time to the route's end and what else counts, as time
+  double delay_s = 0.0;            // [s] of it, what is no time: closeness and the like
   double least_clearance_m = 0.0;  // [m] of the hull; infinity without obstacles
   double least_after_s = 0.0;      // [s] when
   std::uint32_t least_track = 0;   // [-] Track::id; 0: none
@@ -93,6 +94,8 @@ class ManoeuvreChooser {
   void foresee_hazards(Time now, const Tracks& tracks) noexcept;
   [[nodiscard]] Foresight foresee(const Manoeuvre& manoeuvre, Route* way) const noexcept;
   void consider(const Manoeuvre& manoeuvre) noexcept;
+  void consider_all() noexcept;
+  void stay_with_last() noexcept;
 
   VehicleResponse response_;
   ManoeuvreOptions options_;

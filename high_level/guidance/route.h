@@ -11,7 +11,7 @@
 namespace lodesman {
 
 struct Route {
-  static constexpr std::size_t kMaxPoints = 256;
+  static constexpr std::size_t kMaxPoints = 600;
 
   std::array<Eigen::Vector2d, kMaxPoints> points{};  // [m] [world]
   std::uint32_t count = 0;                           // [-] [0, kMaxPoints]

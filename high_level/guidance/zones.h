@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "mid_level/base/frames.h"
 #include "mid_level/messages/path.h"
 #include "mid_level/messages/tracks.h"
 

@@ -84,7 +84,7 @@ inline constexpr std::size_t kPathReasonCount = 7;
 // The reason as the contract spells it: "found", "no_path", ...
 [[nodiscard]] const char* to_string(PathReason reason) noexcept;
 
-inline constexpr std::size_t kMaxPathPoints = 192;
+inline constexpr std::size_t kMaxPathPoints = 512;
 
 struct PathPoint {
   double x_m = 0.0;  // [m] [world]
