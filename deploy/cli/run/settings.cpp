@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdlib>
 
+#include "hal_sim/campaign/encounter.h"
+
 namespace lodesman::cli {
 namespace fs = std::filesystem;
 
@@ -62,6 +64,10 @@ fs::path scenario_file(const std::string& name_or_path) {
 VesselParameters load_vessel_parameters() { return load_vessel(config_file("vessel.toml")); }
 
 Scenario load_named_scenario(const std::string& name_or_path) {
+  if (const auto number = encounter_number(name_or_path)) {
+    return read_scenario(TomlDocument::from_text(encounter_scenario(*number), name_or_path),
+                         load_vessel_parameters());
+  }
   return load_scenario(scenario_file(name_or_path), load_vessel_parameters());
 }
 
