@@ -145,7 +145,7 @@ void Pilot::remember_sides(const Route& route) noexcept {
     const bool at_start = place.leg == 0 && place.share <= 0.0;
     const bool at_end = place.leg + 2 >= route.count && place.share >= 1.0;
     const Vec there = point_at(route, place);
-    if (at_start || at_end || edge_distance_m(shape, {there}) > kPassing_m) {
+    if (shape.id == 0 || at_start || at_end || edge_distance_m(shape, {there}) > kPassing_m) {
       continue;
     }
     const Vec along = route.points[place.leg + 1] - route.points[place.leg];

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "low_level/sonar/frame_tracks.h"
 #include "low_level/sonar/known_obstacles.h"
 
 namespace lodesman {
@@ -37,9 +38,20 @@ void DeltaTTask::step(Time now) noexcept {
     make_own_zones(*options_.own_zones, *seen_);
   }
   obstacles_.publish(*seen_, now);
-  if (oracle_) {
+  if (oracle_ || place_frame(now)) {
     tracks_.publish(*known_, now);
   }
+}
+
+bool DeltaTTask::place_frame(Time now) noexcept {
+  const auto* state = vehicle_state_.fresh(now, max_age::kVehicleState);
+  if (state == nullptr) {
+    return false;
+  }
+  const VehicleState& at = state->value;
+  tracks_of_frame(*seen_, {{{at.x_m, at.y_m}}, Heading::clockwise_from_y_rad(at.heading_rad)},
+                  *known_);
+  return true;
 }
 
 bool DeltaTTask::see_known_scene(Time now) noexcept {

@@ -33,6 +33,8 @@ class DeltaTTask final : public Task {
  private:
   // False when the estimate is stale: then nothing is known of where the obstacles are.
   [[nodiscard]] bool see_known_scene(Time now) noexcept;
+  // Tracks of what was just seen, at the newest estimate; false when that is stale.
+  [[nodiscard]] bool place_frame(Time now) noexcept;
 
   ImagingSonar& sonar_;
   DeltaTOptions options_;

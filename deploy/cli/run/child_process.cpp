@@ -19,6 +19,10 @@ constexpr int kCannotRun = 127;
 
 // In the child, between fork and exec: nothing but system calls.
 [[noreturn]] void become(const char* path, char* const* arguments, pid_t parent) noexcept {
+  // What the parent does on these signals is not for this copy of it to do.
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+    std::signal(signal, SIG_DFL);
+  }
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) {
     _exit(kCannotRun);  // the parent died before the line above

@@ -27,7 +27,6 @@ class ProgressLine {
   std::string name_;
   double speed_m_s_;
   double whole_way_m_;
-  double time_limit_s_;
   bool quiet_;
   bool terminal_;
   bool line_open_ = false;
