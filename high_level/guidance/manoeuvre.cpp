@@ -27,6 +27,7 @@ constexpr std::array kSpeedShares{1.0, 0.5};
 constexpr std::array kSlowShares{0.6, 0.3, 0.0, -0.4};
 
 // Costs, as seconds of delay.
+constexpr double kNoLimit_s = std::numeric_limits<double>::infinity();
 constexpr double kCollision_s = 1000.0;
 constexpr double kCloseness_s = 15.0;  // a second at no clearance at all
 constexpr double kFading_s = 40.0;     // what is far ahead may turn out otherwise
@@ -78,7 +79,7 @@ const ManoeuvreChooser::Choice& ManoeuvreChooser::choose(Time now, const OwnMoti
   stay_at_end_ = stay_at_end;
   foresee_hazards(now, tracks);
   choice_.manoeuvre = {0.0, 0.0, speed_share_max};
-  choice_.of_route = foresee(choice_.manoeuvre, nullptr);
+  choice_.of_route = foresee(choice_.manoeuvre, kNoLimit_s, nullptr);
   choice_.foresight = choice_.of_route;
   // With nothing in the way no other manoeuvre is there sooner.
   if (choice_.of_route.delay_s > 0.0) {
@@ -88,7 +89,7 @@ const ManoeuvreChooser::Choice& ManoeuvreChooser::choose(Time now, const OwnMoti
   choice_.changed = !(choice_.manoeuvre == kept_);
   kept_ = choice_.manoeuvre;
   choice_.way.clear();
-  (void)foresee(choice_.manoeuvre, &choice_.way);
+  (void)foresee(choice_.manoeuvre, kNoLimit_s, &choice_.way);
   return choice_;
 }
 
@@ -112,7 +113,7 @@ void ManoeuvreChooser::stay_with_last() noexcept {
   // The manoeuvre under way is left only for one that is better by the stated gain.
   Manoeuvre kept = kept_;
   kept.speed_share = std::min(kept.speed_share, speed_share_max_);
-  const Foresight of_kept = foresee(kept, nullptr);
+  const Foresight of_kept = foresee(kept, kNoLimit_s, nullptr);
   if (of_kept.cost_s <= choice_.foresight.cost_s + options_.switch_gain_s) {
     choice_.manoeuvre = kept;
     choice_.foresight = of_kept;
@@ -139,14 +140,15 @@ void ManoeuvreChooser::foresee_hazards(Time now, const Tracks& tracks) noexcept 
 }
 
 void ManoeuvreChooser::consider(const Manoeuvre& manoeuvre) noexcept {
-  const Foresight foresight = foresee(manoeuvre, nullptr);
+  const Foresight foresight = foresee(manoeuvre, choice_.foresight.cost_s, nullptr);
   if (foresight.cost_s < choice_.foresight.cost_s) {
     choice_.foresight = foresight;
     choice_.manoeuvre = manoeuvre;
   }
 }
 
-Foresight ManoeuvreChooser::foresee(const Manoeuvre& manoeuvre, Route* way) const noexcept {
+Foresight ManoeuvreChooser::foresee(const Manoeuvre& manoeuvre, double cost_max_s,
+                                    Route* way) const noexcept {
   Foresight out;
   out.least_clearance_m = std::numeric_limits<double>::infinity();
   const Route& route = *route_;
@@ -202,16 +204,14 @@ Foresight ManoeuvreChooser::foresee(const Manoeuvre& manoeuvre, Route* way) cons
           options_.doubt_max_m,
           options_.doubt_sigmas * (h.place_sigma_m + h.velocity_sigma_m_s * (t_s + h.age_s)));
       const double wanted_m = options_.clearance_m + doubt_m;
-      const double reach_m = r.hull_half_length_m + wanted_m + h.around_m;
+      // Far off, how far exactly does not matter.
       const double bound_m = (relative - h.centre).norm() - h.around_m - disc_at_m - disc_m;
-      if (bound_m > wanted_m && bound_m >= out.least_clearance_m) {
-        continue;
-      }
-      (void)reach_m;
       const double clearance_m =
-          std::min(edge_distance_m(h.track->shape, {relative + disc_at_m * ahead}),
-                   edge_distance_m(h.track->shape, {relative - disc_at_m * ahead})) -
-          disc_m;
+          bound_m > wanted_m
+              ? bound_m
+              : std::min(edge_distance_m(h.track->shape, {relative + disc_at_m * ahead}),
+                         edge_distance_m(h.track->shape, {relative - disc_at_m * ahead})) -
+                    disc_m;
       if (clearance_m < out.least_clearance_m) {
         out.least_clearance_m = clearance_m;
         out.least_after_s = t_s;
@@ -242,6 +242,11 @@ Foresight ManoeuvreChooser::foresee(const Manoeuvre& manoeuvre, Route* way) cons
       if (along_m > 0.0 && along_m < kAheadRange_m && across_m < h.around_m + 1.0) {
         cost_s += kAhead_s * (1.0 - along_m / kAheadRange_m) * fading * step_s_;
       }
+    }
+    // No cheaper any more than what is known already, however it goes on.
+    if (cost_s + t_s + (route.end() - own.p_W).norm() / r.speed_max_m_s > cost_max_s) {
+      out.cost_s = std::numeric_limits<double>::infinity();
+      return out;
     }
     since_point_m += std::abs(own.surge_m_s) * step_s_;
     if (way != nullptr && aside && since_point_m >= 0.5) {

@@ -92,7 +92,9 @@ class ManoeuvreChooser {
 
  private:
   void foresee_hazards(Time now, const Tracks& tracks) noexcept;
-  [[nodiscard]] Foresight foresee(const Manoeuvre& manoeuvre, Route* way) const noexcept;
+  // Given up, at an infinite cost, once it must cost more than cost_max_s.
+  [[nodiscard]] Foresight foresee(const Manoeuvre& manoeuvre, double cost_max_s,
+                                  Route* way) const noexcept;
   void consider(const Manoeuvre& manoeuvre) noexcept;
   void consider_all() noexcept;
   void stay_with_last() noexcept;
