@@ -202,12 +202,10 @@ Foresight ManoeuvreChooser::foresee(const Manoeuvre& manoeuvre, Route* way) cons
           options_.doubt_max_m,
           options_.doubt_sigmas * (h.place_sigma_m + h.velocity_sigma_m_s * (t_s + h.age_s)));
       const double wanted_m = options_.clearance_m + doubt_m;
-      const double reach_m = r.hull_half_length_m + wanted_m + h.around_m;
       const double bound_m = (relative - h.centre).norm() - h.around_m - disc_at_m - disc_m;
       if (bound_m > wanted_m && bound_m >= out.least_clearance_m) {
         continue;
       }
-      (void)reach_m;
       const double clearance_m =
           std::min(edge_distance_m(h.track->shape, {relative + disc_at_m * ahead}),
                    edge_distance_m(h.track->shape, {relative - disc_at_m * ahead})) -
