@@ -19,6 +19,14 @@ constexpr double kHorizonMax_s = 90.0;
 constexpr double kStep_m = 0.25;  // of the fastest approach
 constexpr int kSteps_max = 240;
 
+constexpr double kWayPoint_m = 0.5;  // between points of the way that is shown
+
+// How the controller steers.
+constexpr double kArrived_m = 0.4;
+constexpr double kAim_m = 0.2;
+constexpr double kSharpTurn_rad = 0.8;
+constexpr double kSharpTurnShare = 0.3;
+
 // The manoeuvres: courses off the route, each held for a length of way, at a speed.
 constexpr std::array kOffsets_deg{15.0,  -15.0, 30.0,  -30.0, 45.0,   -45.0, 65.0,
                                   -65.0, 90.0,  -90.0, 130.0, -130.0, 180.0};
@@ -33,6 +41,7 @@ constexpr double kCloseness_s = 15.0;  // a second at no clearance at all
 constexpr double kFading_s = 40.0;     // what is far ahead may turn out otherwise
 constexpr double kAhead_s = 6.0;       // crossing close ahead of something that moves
 constexpr double kAheadRange_m = 8.0;
+constexpr double kAheadBeside_m = 1.0;
 constexpr double kMoving_m_s = 0.05;
 constexpr double kToPort_s = 0.5;  // to starboard where nothing else decides
 
@@ -147,125 +156,168 @@ void ManoeuvreChooser::consider(const Manoeuvre& manoeuvre) noexcept {
   }
 }
 
+// One manoeuvre on its way through the future: where the vehicle is, and what it has cost.
+struct ManoeuvreChooser::Voyage {
+  OwnMotion own;
+  RoutePlace place;         // on the route
+  double course_rad = 0.0;  // steered while the manoeuvre lasts
+  double t_s = 0.0;
+  double cost_s = 0.0;  // beside the time
+  bool arrived = false;
+  std::array<bool, kMaxObstacles> hit{};
+  Foresight seen;
+};
+
 Foresight ManoeuvreChooser::foresee(const Manoeuvre& manoeuvre, double cost_max_s,
                                     Route* way) const noexcept {
-  Foresight out;
-  out.least_clearance_m = std::numeric_limits<double>::infinity();
   const Route& route = *route_;
-  const VehicleResponse& r = response_;
-  // Two discs of this radius, so far before and behind the centre, cover the hull.
-  const double disc_at_m = 0.5 * r.hull_half_length_m;
-  const double disc_m = std::hypot(disc_at_m, r.hull_half_beam_m);
-  OwnMotion own = own_;
-  RoutePlace place = nearest_place(route, own.p_W, {}, std::numeric_limits<double>::infinity());
-  const Vec start_aim = point_ahead(route, place, r.look_ahead_m) - own.p_W;
-  const double course_rad =
-      (start_aim.norm() > 0.2 ? heading_of(start_aim) : own.heading_rad) + manoeuvre.offset_rad;
-  double cost_s = manoeuvre.offset_rad < 0.0 ? kToPort_s : 0.0;
-  std::array<bool, kMaxObstacles> hit{};
-  double t_s = 0.0;
+  Voyage voyage = set_out(manoeuvre);
   double since_point_m = 0.0;
   if (way != nullptr) {
-    way->add(own.p_W);
+    (void)way->add(voyage.own.p_W);
   }
-  bool arrived = false;
-  for (int step = 0; step < kSteps_max && t_s < horizon_s_; ++step) {
-    const bool aside = t_s < manoeuvre.for_s;
-    place = nearest_place(route, own.p_W, place, 6.0 * r.look_ahead_m);
-    const double left_m = (route.end() - own.p_W).norm();
-    const bool at_end = left_m < 0.4 && place.leg + 2 >= route.count;
-    if (at_end && !stay_at_end_) {
-      arrived = true;
+  for (int step = 0; step < kSteps_max && voyage.t_s < horizon_s_; ++step) {
+    const bool aside = voyage.t_s < manoeuvre.for_s;
+    sail_on(manoeuvre, voyage);
+    if (voyage.arrived) {
       break;
     }
-    const Vec aim = point_ahead(route, place, r.look_ahead_m) - own.p_W;
-    const double wanted_rad = aside ? course_rad : heading_of(aim);
-    const double deviation_rad = wrap_to_pi(wanted_rad - own.heading_rad);
-    double speed_m_s = (aside ? manoeuvre.speed_share : speed_share_max_) * r.speed_max_m_s;
-    if (!aside && at_end) {
-      speed_m_s = 0.0;
-    } else if (std::abs(deviation_rad) > 0.8 && speed_m_s > 0.0) {
-      speed_m_s *= 0.3;  // as the controller does before a sharp turn
-    }
-    const double turn_rad_s = std::clamp(r.heading_gain_per_s * deviation_rad,
-                                         -r.turn_rate_max_rad_s, r.turn_rate_max_rad_s);
-    const bool still = at_end && !aside;
-    own.heading_rad += still ? 0.0 : turn_rad_s * step_s_;
-    own.surge_m_s += (speed_m_s - own.surge_m_s) * (1.0 - std::exp(-step_s_ / r.surge_time_s));
-    const Vec ahead = direction(own.heading_rad);
-    own.p_W += own.surge_m_s * step_s_ * ahead;
-    t_s += step_s_;
-    const double fading = std::exp(-t_s / kFading_s);
-    for (std::size_t i = 0; i < hazard_count_; ++i) {
-      const Hazard& h = hazards_[i];
-      const Vec moved = (t_s + h.age_s) * h.velocity_m_s;
-      const Vec relative = own.p_W - moved;
-      const double doubt_m = std::min(
-          options_.doubt_max_m,
-          options_.doubt_sigmas * (h.place_sigma_m + h.velocity_sigma_m_s * (t_s + h.age_s)));
-      const double wanted_m = options_.clearance_m + doubt_m;
-      // Far off, how far exactly does not matter.
-      const double bound_m = (relative - h.centre).norm() - h.around_m - disc_at_m - disc_m;
-      const double clearance_m =
-          bound_m > wanted_m
-              ? bound_m
-              : std::min(edge_distance_m(h.track->shape, {relative + disc_at_m * ahead}),
-                         edge_distance_m(h.track->shape, {relative - disc_at_m * ahead})) -
-                    disc_m;
-      if (clearance_m < out.least_clearance_m) {
-        out.least_clearance_m = clearance_m;
-        out.least_after_s = t_s;
-        out.least_track = h.track->id;
-      }
-      if (clearance_m >= wanted_m) {
-        continue;
-      }
-      const double lack = (wanted_m - clearance_m) / wanted_m;
-      cost_s += kCloseness_s * lack * lack * fading * step_s_;
-      if (clearance_m < options_.core_m && !hit[i]) {
-        hit[i] = true;
-        out.collides = true;
-        cost_s += kCollision_s * fading;
-      }
-    }
-    for (std::size_t i = 0; i < hazard_count_; ++i) {
-      const Hazard& h = hazards_[i];
-      const double speed = h.velocity_m_s.norm();
-      if (speed < kMoving_m_s) {
-        continue;
-      }
-      // Close ahead of it, in its way.
-      const Vec from_it = own.p_W - (t_s + h.age_s) * h.velocity_m_s - h.centre;
-      const Vec its_way = h.velocity_m_s / speed;
-      const double along_m = from_it.dot(its_way) - h.around_m;
-      const double across_m = std::abs(from_it.x() * its_way.y() - from_it.y() * its_way.x());
-      if (along_m > 0.0 && along_m < kAheadRange_m && across_m < h.around_m + 1.0) {
-        cost_s += kAhead_s * (1.0 - along_m / kAheadRange_m) * fading * step_s_;
-      }
-    }
+    meet_hazards(voyage);
     // No cheaper any more than what is known already, however it goes on.
-    if (cost_s + t_s + (route.end() - own.p_W).norm() / r.speed_max_m_s > cost_max_s) {
-      out.cost_s = std::numeric_limits<double>::infinity();
-      return out;
+    const double least_left_m = (route.end() - voyage.own.p_W).norm();
+    if (voyage.cost_s + voyage.t_s + least_left_m / response_.speed_max_m_s > cost_max_s) {
+      voyage.seen.cost_s = kNoLimit_s;
+      return voyage.seen;
     }
-    since_point_m += std::abs(own.surge_m_s) * step_s_;
-    if (way != nullptr && aside && since_point_m >= 0.5) {
+    since_point_m += std::abs(voyage.own.surge_m_s) * step_s_;
+    if (way != nullptr && aside && since_point_m >= kWayPoint_m) {
       since_point_m = 0.0;
-      way->add(own.p_W);
+      (void)way->add(voyage.own.p_W);
     }
   }
+  const Vec back = point_at(route, voyage.place);
   const double left_m =
-      arrived ? 0.0 : (point_at(route, place) - own.p_W).norm() + remaining_m(route, place);
-  out.delay_s = cost_s;
-  out.cost_s = cost_s + t_s + left_m / r.speed_max_m_s;
+      voyage.arrived ? 0.0 : (back - voyage.own.p_W).norm() + remaining_m(route, voyage.place);
+  voyage.seen.delay_s = voyage.cost_s;
+  voyage.seen.cost_s = voyage.cost_s + voyage.t_s + left_m / response_.speed_max_m_s;
   if (way != nullptr) {
-    // Back on the route, ahead of where it was left.
-    const RoutePlace back = nearest_place(route, way->end(), {}, 1e9);
-    for (std::uint32_t leg = back.leg; leg + 1 < route.count; ++leg) {
-      way->add(route.points[leg + 1]);
-    }
+    return_to_route(*way);
   }
-  return out;
+  return voyage.seen;
+}
+
+ManoeuvreChooser::Voyage ManoeuvreChooser::set_out(const Manoeuvre& manoeuvre) const noexcept {
+  Voyage voyage;
+  voyage.own = own_;
+  voyage.seen.least_clearance_m = std::numeric_limits<double>::infinity();
+  voyage.place = nearest_place(*route_, own_.p_W, {}, std::numeric_limits<double>::infinity());
+  const Vec aim = point_ahead(*route_, voyage.place, response_.look_ahead_m) - own_.p_W;
+  const double route_rad = aim.norm() > kAim_m ? heading_of(aim) : own_.heading_rad;
+  voyage.course_rad = route_rad + manoeuvre.offset_rad;
+  voyage.cost_s = manoeuvre.offset_rad < 0.0 ? kToPort_s : 0.0;
+  return voyage;
+}
+
+// One step of the vehicle: the manoeuvre's course while it lasts, then along the route.
+void ManoeuvreChooser::sail_on(const Manoeuvre& manoeuvre, Voyage& voyage) const noexcept {
+  const Route& route = *route_;
+  const VehicleResponse& r = response_;
+  OwnMotion& own = voyage.own;
+  const bool aside = voyage.t_s < manoeuvre.for_s;
+  voyage.place = nearest_place(route, own.p_W, voyage.place, 6.0 * r.look_ahead_m);
+  const bool at_end =
+      (route.end() - own.p_W).norm() < kArrived_m && voyage.place.leg + 2 >= route.count;
+  voyage.arrived = at_end && !stay_at_end_;
+  if (voyage.arrived) {
+    return;
+  }
+  const bool still = at_end && !aside;
+  const Vec aim = point_ahead(route, voyage.place, r.look_ahead_m) - own.p_W;
+  const double wanted_rad = aside ? voyage.course_rad : heading_of(aim);
+  const double deviation_rad = wrap_to_pi(wanted_rad - own.heading_rad);
+  double speed_m_s = (aside ? manoeuvre.speed_share : speed_share_max_) * r.speed_max_m_s;
+  if (still) {
+    speed_m_s = 0.0;
+  } else if (std::abs(deviation_rad) > kSharpTurn_rad && speed_m_s > 0.0) {
+    speed_m_s *= kSharpTurnShare;  // as the controller does
+  }
+  const double turn_rad_s = std::clamp(r.heading_gain_per_s * deviation_rad, -r.turn_rate_max_rad_s,
+                                       r.turn_rate_max_rad_s);
+  own.heading_rad += still ? 0.0 : turn_rad_s * step_s_;
+  own.surge_m_s += (speed_m_s - own.surge_m_s) * (1.0 - std::exp(-step_s_ / r.surge_time_s));
+  own.p_W += own.surge_m_s * step_s_ * direction(own.heading_rad);
+  voyage.t_s += step_s_;
+}
+
+// What the obstacles cost where the vehicle is now, wherever they are by then.
+void ManoeuvreChooser::meet_hazards(Voyage& voyage) const noexcept {
+  const double fading = std::exp(-voyage.t_s / kFading_s);
+  for (std::size_t i = 0; i < hazard_count_; ++i) {
+    const Hazard& hazard = hazards_[i];
+    const double after_s = voyage.t_s + hazard.age_s;
+    const double doubt_m = std::min(
+        options_.doubt_max_m,
+        options_.doubt_sigmas * (hazard.place_sigma_m + hazard.velocity_sigma_m_s * after_s));
+    const double wanted_m = options_.clearance_m + doubt_m;
+    const double clearance_m = hull_clearance_m(hazard, after_s, voyage.own, wanted_m);
+    if (clearance_m < voyage.seen.least_clearance_m) {
+      voyage.seen.least_clearance_m = clearance_m;
+      voyage.seen.least_after_s = voyage.t_s;
+      voyage.seen.least_track = hazard.track->id;
+    }
+    if (clearance_m < wanted_m) {
+      const double lack = (wanted_m - clearance_m) / wanted_m;
+      voyage.cost_s += kCloseness_s * lack * lack * fading * step_s_;
+    }
+    if (clearance_m < options_.core_m && !voyage.hit[i]) {
+      voyage.hit[i] = true;
+      voyage.seen.collides = true;
+      voyage.cost_s += kCollision_s * fading;
+    }
+    voyage.cost_s += cost_of_crossing_ahead_s(hazard, after_s, voyage.own) * fading * step_s_;
+  }
+}
+
+// From the hull, which two discs cover, to an obstacle; beyond wanted_m a lower bound.
+double ManoeuvreChooser::hull_clearance_m(const Hazard& hazard, double after_s,
+                                          const OwnMotion& own, double wanted_m) const noexcept {
+  const double disc_at_m = 0.5 * response_.hull_half_length_m;
+  const double disc_m = std::hypot(disc_at_m, response_.hull_half_beam_m);
+  const Vec relative = own.p_W - after_s * hazard.velocity_m_s;
+  const double bound_m = (relative - hazard.centre).norm() - hazard.around_m - disc_at_m - disc_m;
+  if (bound_m > wanted_m) {
+    return bound_m;
+  }
+  const Vec to_disc = disc_at_m * direction(own.heading_rad);
+  const Obstacle& shape = hazard.track->shape;
+  return std::min(edge_distance_m(shape, {relative + to_disc}),
+                  edge_distance_m(shape, {relative - to_disc})) -
+         disc_m;
+}
+
+// A second close ahead of something that moves, in its way.
+double ManoeuvreChooser::cost_of_crossing_ahead_s(const Hazard& hazard, double after_s,
+                                                  const OwnMotion& own) noexcept {
+  const double speed_m_s = hazard.velocity_m_s.norm();
+  if (speed_m_s < kMoving_m_s) {
+    return 0.0;
+  }
+  const Vec from_it = own.p_W - after_s * hazard.velocity_m_s - hazard.centre;
+  const Vec its_way = hazard.velocity_m_s / speed_m_s;
+  const double along_m = from_it.dot(its_way) - hazard.around_m;
+  const double across_m = std::abs(from_it.x() * its_way.y() - from_it.y() * its_way.x());
+  const bool in_its_way =
+      along_m > 0.0 && along_m < kAheadRange_m && across_m < hazard.around_m + kAheadBeside_m;
+  return in_its_way ? kAhead_s * (1.0 - along_m / kAheadRange_m) : 0.0;
+}
+
+// From where it was left to the end.
+void ManoeuvreChooser::return_to_route(Route& way) const noexcept {
+  const RoutePlace back =
+      nearest_place(*route_, way.end(), {}, std::numeric_limits<double>::infinity());
+  for (std::uint32_t leg = back.leg; leg + 1 < route_->count; ++leg) {
+    (void)way.add(route_->points[leg + 1]);
+  }
 }
 
 }  // namespace lodesman

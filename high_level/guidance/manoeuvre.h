@@ -92,9 +92,18 @@ class ManoeuvreChooser {
 
  private:
   void foresee_hazards(Time now, const Tracks& tracks) noexcept;
+  struct Voyage;
   // Given up, at an infinite cost, once it must cost more than cost_max_s.
   [[nodiscard]] Foresight foresee(const Manoeuvre& manoeuvre, double cost_max_s,
                                   Route* way) const noexcept;
+  [[nodiscard]] Voyage set_out(const Manoeuvre& manoeuvre) const noexcept;
+  void sail_on(const Manoeuvre& manoeuvre, Voyage& voyage) const noexcept;
+  void meet_hazards(Voyage& voyage) const noexcept;
+  [[nodiscard]] double hull_clearance_m(const Hazard& hazard, double after_s, const OwnMotion& own,
+                                        double wanted_m) const noexcept;
+  [[nodiscard]] static double cost_of_crossing_ahead_s(const Hazard& hazard, double after_s,
+                                                       const OwnMotion& own) noexcept;
+  void return_to_route(Route& way) const noexcept;
   void consider(const Manoeuvre& manoeuvre) noexcept;
   void consider_all() noexcept;
   void stay_with_last() noexcept;

@@ -114,7 +114,7 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
   if (!aside && at_end) {
     plan.speed_share = 0.0;
   }
-  explain(path, choice, at_end, plan);
+  explain(path, choice, plan);
 }
 
 void Pilot::make_route(const SonarPath& path) noexcept {
@@ -155,7 +155,7 @@ void Pilot::remember_sides(const Route& route) noexcept {
   }
 }
 
-void Pilot::explain(const SonarPath& path, const ManoeuvreChooser::Choice& choice, bool at_end,
+void Pilot::explain(const SonarPath& path, const ManoeuvreChooser::Choice& choice,
                     Plan& plan) const noexcept {
   plan.reason = escaping_                                          ? PathReason::kStartBlocked
                 : goal_moved_ && path.reason == PathReason::kFound ? PathReason::kGoalBlocked
@@ -180,7 +180,6 @@ void Pilot::explain(const SonarPath& path, const ManoeuvreChooser::Choice& choic
   } else {
     plan.rung = path.narrow ? PlanRung::kSlow : PlanRung::kOnRoute;
   }
-  (void)at_end;
 }
 
 }  // namespace lodesman

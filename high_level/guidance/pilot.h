@@ -50,7 +50,7 @@ class Pilot {
   void ask_for_sides(PathRequest& request) const noexcept;
   void remember_sides(const Route& route) noexcept;
   void make_route(const SonarPath& path) noexcept;
-  void explain(const SonarPath& path, const ManoeuvreChooser::Choice& choice, bool at_end,
+  void explain(const SonarPath& path, const ManoeuvreChooser::Choice& choice,
                Plan& plan) const noexcept;
 
   PilotOptions options_;

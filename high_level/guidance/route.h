@@ -36,7 +36,7 @@ struct RoutePlace {
   double share = 0.0;  // [0, 1]
 };
 
-// The nearest place, not before `from` and at most within_m of the route beyond it.
+// The nearest place, not before `from` and on no leg that begins more than within_m beyond it.
 [[nodiscard]] RoutePlace nearest_place(const Route& route, const Eigen::Vector2d& point,
                                        RoutePlace from, double within_m) noexcept;
 [[nodiscard]] Eigen::Vector2d point_at(const Route& route, RoutePlace place) noexcept;

@@ -31,7 +31,7 @@ class TrackOracle {
   // `world` must outlive this object.
   TrackOracle(std::span<const MovingObstacle> world, const TrackOracleOptions& options);
 
-  // One ping. `out` is what is known now, as old as the delay makes it, nearest first.
+  // One ping. `out` is what is known now, as old as the delay makes it, in the scene's order.
   void see(const KnownView& view, Tracks& out) noexcept;
 
  private:

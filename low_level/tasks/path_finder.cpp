@@ -62,6 +62,7 @@ void PathFinderTask::find_in_view(const PathRequest& request) noexcept {
 void PathFinderTask::find_in_world(const PathRequest& request) noexcept {
   path_->request = request.id;
   path_->frame = request.frame;
+  path_->captured = Time{};  // what it was planned in came with the request
   path_->cost_10_14 = 0;
   path_->pixel_count = 0;
   world_finder_.find_path(request, *path_);

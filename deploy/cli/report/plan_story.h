@@ -9,8 +9,8 @@
 
 namespace lodesman::cli {
 
-// "12.3 s: steers 48 deg, at full speed: obstacle 2 would come within 0.31 m in 8 s (plan 0.15 s
-// old)"
+// "12.3 s: steers 48 deg, at full speed; obstacle 2, 0.31 m clear in 8 s (plan 0.15 s old)";
+// the clearance is what the manoeuvre leaves.
 [[nodiscard]] std::string describe(const PlanRecord& plan);
 
 class PlanStory {
