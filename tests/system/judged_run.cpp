@@ -64,7 +64,9 @@ class Witness {
   Collision collision;
   collision.time_s = hit.scenario_time_s;
   collision.obstacle = nearest_obstacle(waters, state_of(hit).pose, hit.scenario_time_s).obstacle;
-  if (const auto seen = witness.first_seen(collision.obstacle)) {
+  // What is seen only after it was hit came from out of sight.
+  const auto seen = witness.first_seen(collision.obstacle);
+  if (seen && seen->scenario_time_s < hit.scenario_time_s) {
     collision.first_seen_s = seen->scenario_time_s;
     collision.avoidable = find_escape(waters, state_of(*seen), seen->scenario_time_s,
                                       hit.scenario_time_s + kSurvive_s)
@@ -87,11 +89,11 @@ template <class... Values>
                   result.time_s, result.goal_error_m, run.last_rung.c_str());
   }
   const Collision& hit = *run.collision;
-  return format(
-      "collision at %.1f s with obstacle %u, %s, %.2f m deep, could %sbe avoided", hit.time_s,
-      hit.obstacle,
-      hit.first_seen_s ? format("first seen at %.1f s", *hit.first_seen_s).c_str() : "never seen",
-      -result.min_hull_clearance_m.value_or(0.0), hit.avoidable ? "" : "not ");
+  return format("collision at %.1f s with obstacle %u, %s, %.2f m deep, could %sbe avoided",
+                hit.time_s, hit.obstacle,
+                hit.first_seen_s ? format("first seen at %.1f s", *hit.first_seen_s).c_str()
+                                 : "not seen before",
+                -result.min_hull_clearance_m.value_or(0.0), hit.avoidable ? "" : "not ");
 }
 
 [[nodiscard]] std::string replay(const std::string& scenario_name,

@@ -15,7 +15,7 @@ namespace lodesman::testing {
 struct Collision {
   double time_s = 0.0;                 // scenario time
   std::uint32_t obstacle = 0;          // id, as it stands in the scenario from 1 on
-  std::optional<double> first_seen_s;  // when its track first stood on the blackboard
+  std::optional<double> first_seen_s;  // when its track first stood on the blackboard, if before
   bool avoidable = false;              // from then on
 };
 
