@@ -52,7 +52,7 @@ struct Manoeuvre {
 struct Foresight {
   double cost_s = 0.0;             // [s] time to the route's end and what else counts, as time
   double delay_s = 0.0;            // [s] of it, what is no time: closeness and the like
-  double least_clearance_m = 0.0;  // [m] of the hull; infinity without obstacles
+  double least_clearance_m = 0.0;  // [m] of the hull; far off a lower bound; infinity: no obstacle
   double least_after_s = 0.0;      // [s] when
   std::uint32_t least_track = 0;   // [-] Track::id; 0: none
   bool collides = false;

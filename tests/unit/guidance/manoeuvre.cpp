@@ -92,7 +92,9 @@ TEST_CASE("manoeuvre: with nothing in the way the route is followed at full spee
   const Choice& abeam = choose(*chooses, tracks_of({disc_track(5, 9, 10)}));
   CHECK(abeam.manoeuvre == kAlongTheRoute);
   CHECK(abeam.foresight.least_track == 5);
-  CHECK(abeam.foresight.least_clearance_m == Approx(9.0 - 0.5 - 0.79).margin(0.1));
+  // Far off it is a lower bound.
+  CHECK(abeam.foresight.least_clearance_m <= 9.0 - 0.5 - 0.79);
+  CHECK(abeam.foresight.least_clearance_m >= 9.0 - 0.5 - 0.79 - 0.6);
 }
 
 TEST_CASE("manoeuvre: what is allowed here is the fastest it goes", "[high_level][guidance]") {
