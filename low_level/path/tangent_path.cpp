@@ -40,8 +40,10 @@ TangentPath::TangentPath(TangentLimits limits) : limits_{limits} {
 }
 
 TangentResult TangentPath::find(std::span<const ZonePx> zones, const RegionPx& region,
-                                PointPx start, PointPx goal) noexcept {
+                                PointPx start, PointPx goal,
+                                std::span<const BendSides> sides) noexcept {
   TangentResult result;
+  sides_ = sides;
   result.reason = begin(zones, region, start, goal);
   if (result.reason == PathReason::kFound) {
     result.reason = search(result);
@@ -99,8 +101,7 @@ PathReason TangentPath::search(TangentResult& result) noexcept {
       }
     } else if (segment.to == kGoal) {
       result.length_px = segment.length_px;
-      before_goal_ = segment.from;
-      return trace(result) ? PathReason::kFound : PathReason::kLimit;
+      return trace(segment.from, goal_, result) ? PathReason::kFound : PathReason::kLimit;
     } else {
       reach(segment);
     }
@@ -108,7 +109,7 @@ PathReason TangentPath::search(TangentResult& result) noexcept {
       return PathReason::kLimit;
     }
   }
-  return PathReason::kNoPath;
+  return trace_nearest(result) ? PathReason::kNoPath : PathReason::kLimit;
 }
 
 void TangentPath::reach(const Segment& segment) noexcept {
@@ -152,7 +153,9 @@ void TangentPath::push_tangents(NodeId from, const Departure& departure,
   const NodeId up = 2 * (body.first_corner + tangents.up) + 1;
   const NodeId down = 2 * (body.first_corner + tangents.down);
   for (const NodeId to : {up, down}) {
-    if (departure.is_taut(corner_of(to).at)) {
+    // To higher corners it goes clockwise, as seen in the view: with the body to starboard.
+    const bool may = goes_up(to) ? body.sides.starboard : body.sides.port;
+    if (may && departure.is_taut(corner_of(to).at)) {
       push(from, departure.at, to);
     }
   }
@@ -199,7 +202,7 @@ void TangentPath::take_part(const Obstruction& obstruction) noexcept {
     add_wall_vertex(obstruction.zone,
                     obstruction.edge + 1 < wall->vertex_count ? obstruction.edge + 1 : 0);
   } else if (const auto* ellipse = std::get_if<EllipsePx>(&shape)) {
-    add_body(*ellipse);
+    add_body(obstruction.zone, *ellipse);
   }
 }
 
@@ -209,11 +212,12 @@ void TangentPath::add_wall_vertex(std::uint32_t zone, std::uint32_t vertex) noex
     return;
   }
   zones_[zone].vertices |= 1U << vertex;
-  add_body({wall->vertices[vertex], wall->radius, wall->radius, 1.0, 0.0});
+  add_body(zone, {wall->vertices[vertex], wall->radius, wall->radius, 1.0, 0.0});
 }
 
-void TangentPath::add_body(const EllipsePx& shape) noexcept {
-  Body body{RoundBody{shape}, static_cast<std::uint32_t>(corners_.size()), kGoal};
+void TangentPath::add_body(std::uint32_t zone, const EllipsePx& shape) noexcept {
+  Body body{RoundBody{shape}, static_cast<std::uint32_t>(corners_.size()),
+            zone < sides_.size() ? sides_[zone] : BendSides{}, kGoal};
   const std::uint32_t count = body.shape.corner_count();
   if (corners_.size() + count > limits_.max_corners) {
     out_of_room_ = true;
@@ -238,9 +242,8 @@ void TangentPath::add_body(const EllipsePx& shape) noexcept {
   }
 }
 
-bool TangentPath::trace(TangentResult& result) noexcept {
-  path_.push_back(goal_);
-  NodeId node = before_goal_;
+bool TangentPath::trace(NodeId node, PointPx last, TangentResult& result) noexcept {
+  path_.push_back(last);
   while (node != kStart && path_.size() < limits_.max_waypoints) {
     path_.push_back(corner_of(node).at);
     node = nodes_[node].before;
@@ -253,6 +256,25 @@ bool TangentPath::trace(TangentResult& result) noexcept {
   std::reverse(path_.begin(), path_.end());
   result.path = path_;
   return true;
+}
+
+bool TangentPath::trace_nearest(TangentResult& result) noexcept {
+  NodeId nearest = kStart;
+  double least_px = length_of(goal_ - start_);
+  for (const NodeId node : reached_) {
+    const double distance_px = length_of(goal_ - corner_of(node).at);
+    if (distance_px < least_px) {
+      least_px = distance_px;
+      nearest = node;
+    }
+  }
+  result.length_px = length_to(nearest);
+  if (nearest == kStart) {
+    path_.push_back(start_);
+    result.path = path_;
+    return true;
+  }
+  return trace(nodes_[nearest].before, corner_of(nearest).at, result);
 }
 
 PointPx TangentPath::place_of(NodeId node) const noexcept {

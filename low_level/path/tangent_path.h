@@ -26,11 +26,19 @@ struct TangentLimits {
   std::uint32_t max_waypoints = 4096;  // [-] of the path; at least 2
 };
 
+// On which sides a path may have a zone when it bends round it.
+struct BendSides {
+  bool port = true;       // the zone to port: the path bends to port
+  bool starboard = true;  // the zone to starboard
+};
+
 struct TangentResult {
   PathReason reason = PathReason::kNoPath;
-  double length_px = 0.0;         // 0 where not found
-  std::uint32_t tried = 0;        // [-] segments tested against the zones
-  std::span<const PointPx> path;  // start to goal; empty where not found
+  double length_px = 0.0;   // of the path below
+  std::uint32_t tried = 0;  // [-] segments tested against the zones
+  // Start to goal. Where there is no path: to the point nearest to the goal of all that a path
+  // bends at, perhaps the start alone. Otherwise empty.
+  std::span<const PointPx> path;
 };
 
 // A shortest path is made of straight lines that are tangents, and of parts of the zones' edges. It
@@ -53,8 +61,11 @@ class TangentPath {
   // Checked in this order: kStartBlocked (also where the start is not in the region, or a zone's
   // numbers cannot be drawn), kGoalOutOfView (not in the region), kGoalBlocked, kLimit (also more
   // than kMaxObstacles zones), kNoPath. The result's path is valid until the next search.
+  // `sides`, one a zone or empty: how a path may bend round it. A path may still have a zone on the
+  // other side without touching it.
   [[nodiscard]] TangentResult find(std::span<const ZonePx> zones, const RegionPx& region,
-                                   PointPx start, PointPx goal) noexcept;
+                                   PointPx start, PointPx goal,
+                                   std::span<const BendSides> sides = {}) noexcept;
 
  private:
   // A corner passed in one of the two senses is a node: twice its number, and one more where the
@@ -77,6 +88,7 @@ class TangentPath {
   struct Body {
     RoundBody shape;
     std::uint32_t first_corner = 0;
+    BendSides sides;
     NodeId goal_corner = kGoal;  // the corner next to a goal that lies in the polygon
   };
   // Which parts of a zone take part in the search; an ellipse is one part.
@@ -124,9 +136,11 @@ class TangentPath {
   void look_at(const WallPx& wall, std::uint32_t zone, const BoxPx& box, PointPx from, PointPx to,
                Obstruction& found) const noexcept;
   void take_part(const Obstruction& obstruction) noexcept;
-  void add_body(const EllipsePx& shape) noexcept;
+  void add_body(std::uint32_t zone, const EllipsePx& shape) noexcept;
   void add_wall_vertex(std::uint32_t zone, std::uint32_t vertex) noexcept;
-  [[nodiscard]] bool trace(TangentResult& result) noexcept;
+  // The path whose last point is `last` and whose last bend is at `node`.
+  [[nodiscard]] bool trace(NodeId node, PointPx last, TangentResult& result) noexcept;
+  [[nodiscard]] bool trace_nearest(TangentResult& result) noexcept;
 
   [[nodiscard]] static bool goes_up(NodeId node) noexcept { return (node & 1U) != 0; }
   [[nodiscard]] const Corner& corner_of(NodeId node) const noexcept { return corners_[node / 2]; }
@@ -136,11 +150,11 @@ class TangentPath {
   [[nodiscard]] Departure departure_from(NodeId node) const noexcept;
 
   TangentLimits limits_;
-  std::span<const ZonePx> shapes_;  // of this search only
+  std::span<const ZonePx> shapes_;    // of this search only
+  std::span<const BendSides> sides_;  // likewise
   RegionPx region_ = RegionPx::fan();
   PointPx start_;
   PointPx goal_;
-  NodeId before_goal_ = kStart;
   bool out_of_room_ = false;
   std::array<Zone, kMaxObstacles> zones_{};
   std::vector<Body> bodies_;

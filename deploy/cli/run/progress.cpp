@@ -47,6 +47,14 @@ void ProgressLine::show(const RunProgress& progress) {
   }
 }
 
+void ProgressLine::say(const std::string& text) {
+  if (quiet_) {
+    return;
+  }
+  fmt::print(stderr, "{}{}\n", terminal_ ? "\r\x1b[K" : "", text);
+  line_open_ = false;
+}
+
 std::string ProgressLine::line(const RunProgress& progress) const {
   if (progress.state == MissionState::kIdle) {
     return fmt::format("{}  waiting for the start", name_);

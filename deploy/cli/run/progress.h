@@ -18,6 +18,8 @@ class ProgressLine {
   ~ProgressLine();  // leaves the cursor on a fresh line
 
   void show(const RunProgress& progress);
+  // A line of its own, which stays.
+  void say(const std::string& text);
 
  private:
   [[nodiscard]] std::string line(const RunProgress& progress) const;

@@ -115,7 +115,7 @@ TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
   watch.poll(kStart);
   const SegmentState state{"lodesman-x", true, false, watch.state()};
   const auto lines = table_lines(state, false);
-  REQUIRE(lines.size() == 3 + 13 + kTaskCount);
+  REQUIRE(lines.size() == 3 + 14 + kTaskCount);
   REQUIRE(lines[0] == "! lodesman-x: lodesman-low alive, lodesman-high GONE");
   std::string all;
   for (const std::string& line : lines) {

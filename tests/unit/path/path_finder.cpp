@@ -17,6 +17,7 @@ constexpr double kRange = 30.0;
 struct Rig {
   std::unique_ptr<SonarObstacles> obstacles = std::make_unique<SonarObstacles>();
   std::unique_ptr<SonarPath> path = std::make_unique<SonarPath>();
+  std::unique_ptr<PathRequest> request = std::make_unique<PathRequest>();
   PathFinder finder;
 
   void add_disc(double x_m, double y_m, double protection_m) {
@@ -27,7 +28,11 @@ struct Rig {
     o.protection_second_m = protection_m;
   }
   PathReason find(double goal_x_m, double goal_y_m, double range_m = kRange) {
-    finder.find_path(*obstacles, {7, 41, goal_x_m, goal_y_m}, range_m, *path);
+    request->id = 7;
+    request->frame = 41;
+    request->goal_x_m = goal_x_m;
+    request->goal_y_m = goal_y_m;
+    finder.find_path(*obstacles, *request, range_m, *path);
     return path->reason;
   }
 };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "low_level/path/plane.h"
 #include "tests/support/catch.h"
 #include "tests/unit/path/tangent_check.h"
 
@@ -24,6 +25,11 @@ struct Asked {
     result = planner.find(zones, region, start, goal);
     if (result.reason == PathReason::kFound) {
       require_sound(result, zones, region, start, goal);
+    } else if (result.reason == PathReason::kNoPath) {
+      // As near to the goal as it came.
+      REQUIRE_FALSE(result.path.empty());
+      REQUIRE(length_of(result.path.front() - start) <= 0.0);
+      REQUIRE(length_of(result.path.back() - goal) <= length_of(start - goal));
     } else {
       REQUIRE(result.path.empty());
       REQUIRE(result.length_px <= 0.0);
