@@ -130,7 +130,7 @@ TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
 
   const auto json = to_json(state);
   REQUIRE(json.at("high_alive") == false);
-  REQUIRE(json.at("channels").size() == 13);
+  REQUIRE(json.at("channels").size() == 14);
   REQUIRE(json.at("channels")[1].at("name") == "attitude");
   REQUIRE(json.at("channels")[1].at("stale") == false);
   REQUIRE(json.at("tasks").size() == kTaskCount);
