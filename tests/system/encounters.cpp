@@ -13,8 +13,7 @@ using namespace lodesman::testing;
 
 namespace {
 
-constexpr int kGroups = 6;
-constexpr int kGroupSize = LODESMAN_ENCOUNTERS / kGroups;
+constexpr int kGroupSize = 50;
 
 void sail_group(int group) {
   Outcomes outcomes;

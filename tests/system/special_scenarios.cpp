@@ -31,12 +31,12 @@ TEST_CASE("special: the start lies in four zones", "[system]") {
 TEST_CASE("special: the goal lies abeam", "[system]") { sail_seeds("goal-abeam", 5); }
 TEST_CASE("special: the goal lies astern", "[system]") { sail_seeds("goal-astern", 5); }
 TEST_CASE("special: something rests on the goal for a time", "[system]") {
-  sail_seeds("goal-in-mover", 5);
+  sail_seeds("goal-in-mover", 2);
 }
 TEST_CASE("special: two walls close in", "[system]") { sail_seeds("closing-channel", 5); }
-TEST_CASE("special: a ring round the goal opens", "[system]") { sail_seeds("ring-opens", 5); }
-TEST_CASE("special: a wall is wider than the fan", "[system]") { sail_seeds("wide-wall", 5); }
-TEST_CASE("special: twenty cross the way", "[system]") { sail_seeds("twenty-movers", 5); }
+TEST_CASE("special: a ring round the goal opens", "[system]") { sail_seeds("ring-opens", 2); }
+TEST_CASE("special: a wall is wider than the fan", "[system]") { sail_seeds("wide-wall", 2); }
+TEST_CASE("special: twenty cross the way", "[system]") { sail_seeds("twenty-movers", 2); }
 
 TEST_CASE("special: all of them, many seeds", "[.campaign]") {
   for (const char* name : {"start-in-four-zones", "goal-abeam", "goal-astern", "goal-in-mover",
