@@ -145,7 +145,7 @@ const Plan* Replanner::answer(Time now, const SonarPath& path, const Tracks& tra
 }
 
 Replanner::Pending Replanner::take_answer(Time now) noexcept {
-  const Pending pending = *pending_;
+  Pending pending = *pending_;
   pending_.reset();
   heard_ = now;
   silence_said_ = false;
