@@ -48,9 +48,9 @@ struct VehicleState {
   double y_m = 0.0;          // [m] [world] north
   double heading_rad = 0.0;  // [rad] [-pi, pi] clockwise from north
   double surge_m_s = 0.0;    // [m/s] speed ahead through the water, estimated
-  // [m/s] [world] of the water, estimated; 0 where nothing is measured that could tell it
-  double current_x_m_s = 0.0;
-  double current_y_m_s = 0.0;
+  // Of the water, estimated; 0 where nothing is measured that could tell it.
+  double current_x_m_s = 0.0;  // [m/s] [world]
+  double current_y_m_s = 0.0;  // [m/s] [world]
 
   static constexpr auto fields() noexcept {
     using V = VehicleState;
