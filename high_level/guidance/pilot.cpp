@@ -121,6 +121,11 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
   plan.speed_share = choice.manoeuvre.speed_share;
   const double left_m = (route_.end() - own.p_W).norm();
   holding_ = stay_at_end && !aside && left_m < (holding_ ? kDrifted_m : kArrived_m);
+  if (holding_) {
+    // It faces what it waits for, so that it sees when that is clear.
+    const Vec goal = Vec{plan.goal_x_m, plan.goal_y_m} - own.p_W;
+    plan.course_rad = goal.norm() > kDrifted_m ? std::atan2(goal.x(), goal.y()) : own.heading_rad;
+  }
   explain(path, choice, plan);
 }
 

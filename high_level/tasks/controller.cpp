@@ -16,6 +16,7 @@ constexpr double kStay_m = 0.4;       // a place to wait at is held within this 
 constexpr double kReturn_s = 5.0;     // ... and gone back to in about this time
 constexpr double kAstern_rad = 1.75;  // what lies abaft of this is gone back to astern
 constexpr double kStillWater_m_s = 0.02;
+constexpr double kFacing_rad = 0.2;     // turned no better than this towards what it waits for
 constexpr double kAim_m = 0.2;          // nearer than this a point gives no direction
 constexpr double kSharpTurn_rad = 0.8;  // it slows down to turn by more
 constexpr double kSharpTurnShare = 0.3;
@@ -105,7 +106,7 @@ void ControllerTask::steer_by_pilot(const Plan& plan, const VehicleState& state,
   }
   const Vec way = ahead.point.xy_m - position.xy_m;
   if (plan.stay_at_end && ahead.is_end) {
-    keep_place(way, plan.speed_share, current, attitude, helm);
+    keep_place(way, plan, current, attitude, helm);
   } else {
     steer_along(way.norm() > kAim_m ? way : course, plan.speed_share, current, attitude, helm);
   }
@@ -125,7 +126,7 @@ void ControllerTask::steer_along(const Vec& way, double speed_share, const Vec& 
 
 // Back to a place the faster the farther it is, on top of what the current asks for; bow or stern
 // first, whichever is nearer.
-void ControllerTask::keep_place(const Vec& way, double speed_share, const Vec& current,
+void ControllerTask::keep_place(const Vec& way, const Plan& plan, const Vec& current,
                                 const Attitude& attitude, HelmCommand& helm) noexcept {
   const double off_m = way.norm() - kStay_m;
   Vec through = -current;
@@ -133,17 +134,21 @@ void ControllerTask::keep_place(const Vec& way, double speed_share, const Vec& c
     through += std::min(off_m / kReturn_s, options_.speed_m_s) * way.normalized();
   }
   const double speed_m_s = through.norm();
-  if (speed_m_s < kStillWater_m_s) {
-    return;  // there, and nothing moves it: neutral
-  }
   const Heading heading = Heading::clockwise_from_y_rad(attitude.heading_rad);
+  if (speed_m_s < kStillWater_m_s) {
+    const Heading faced = Heading::clockwise_from_y_rad(plan.course_rad);
+    if (std::abs(heading.turn_to_rad(faced)) > kFacing_rad) {
+      set_helm(0.0, faced, attitude, helm);
+    }
+    return;  // there, and nothing moves it: no surge
+  }
   Heading reference = Heading::of_displacement(through.x(), through.y());
   const bool astern = std::abs(heading.turn_to_rad(reference)) > kAstern_rad;
   if (astern) {
     reference = Heading::of_displacement(-through.x(), -through.y());
   }
   const double along = std::max(0.0, std::cos(heading.turn_to_rad(reference)));
-  const double share = along * std::min(speed_m_s / options_.speed_m_s, std::abs(speed_share));
+  const double share = along * std::min(speed_m_s / options_.speed_m_s, std::abs(plan.speed_share));
   set_helm(astern ? -share : share, reference, attitude, helm);
 }
 

@@ -33,7 +33,7 @@ class ControllerTask final : public Task {
                       HelmCommand& helm) noexcept;
   void steer_along(const Eigen::Vector2d& way, double speed_share, const Eigen::Vector2d& current,
                    const Attitude& attitude, HelmCommand& helm) noexcept;
-  void keep_place(const Eigen::Vector2d& way, double speed_share, const Eigen::Vector2d& current,
+  void keep_place(const Eigen::Vector2d& way, const Plan& plan, const Eigen::Vector2d& current,
                   const Attitude& attitude, HelmCommand& helm) noexcept;
   void set_helm(double speed_share, Heading reference, const Attitude& attitude,
                 HelmCommand& helm) noexcept;

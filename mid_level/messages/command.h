@@ -103,7 +103,7 @@ struct Plan {
   WaypointSource source = WaypointSource::kNone;
   PlanRung rung = PlanRung::kOnRoute;
   SteerBy steer_by = SteerBy::kWaypoints;
-  double course_rad = 0.0;           // [rad] [-pi, pi] where it is steered by
+  double course_rad = 0.0;           // [rad] [-pi, pi] steered, or faced while holding
   double speed_share = 1.0;          // [-] of the mission's SurgeRef; more than 1: to get away
   bool stay_at_end = false;          // the last waypoint is a place to wait at
   bool narrow = false;               // zones had to give what they may
