@@ -147,6 +147,28 @@ TEST_CASE("manoeuvre: it stops before a way that is blocked all round", "[high_l
   CHECK(voyage.least_m > 1.0);
 }
 
+TEST_CASE("manoeuvre: where nothing slower keeps clear it flees, and only there",
+          "[high_level][guidance]") {
+  // A slow boat, and something faster that comes up on its beam.
+  VehicleResponse slow = default_response();
+  slow.speed_max_m_s = 0.2;
+  ManoeuvreOptions options = default_manoeuvres();
+  const auto choice_with = [&](double flight_speed_m_s, const Tracks& tracks) {
+    options.flight_speed_m_s = flight_speed_m_s;
+    const auto chooses = std::make_unique<ManoeuvreChooser>(slow, options);
+    return std::make_unique<Choice>(
+        chooses->choose(at_s(0), northward_at(0.0, 0.2), route_north(), tracks, 1.0, false));
+  };
+  const Tracks fast = tracks_of({disc_track(1, 5.0, 0.5, -1.0, 0.0)});
+  CHECK(choice_with(0.0, fast)->foresight.collides);
+  const auto fled = choice_with(1.0, fast);
+  CHECK_FALSE(fled->foresight.collides);
+  CHECK(std::abs(fled->manoeuvre.speed_share) > 1.0);
+  const auto calm = choice_with(1.0, tracks_of({disc_track(1, 12.0, 3.0, -0.5, 0.0)}));
+  CHECK_FALSE(calm->foresight.collides);
+  CHECK(std::abs(calm->manoeuvre.speed_share) <= 1.0);
+}
+
 TEST_CASE("manoeuvre: it is kept to unless another gains more than is stated",
           "[high_level][guidance]") {
   const Tracks to_port = tracks_of({disc_track(3, -0.4, 16, 0.0, -0.5)});
