@@ -110,7 +110,7 @@ const ManoeuvreChooser::Choice& ManoeuvreChooser::choose(Time now, const OwnMoti
   // With nothing in the way no other manoeuvre is there sooner.
   if (choice_.of_route.delay_s > 0.0) {
     consider_all();
-    if (choice_.foresight.collides) {
+    if (choice_.foresight.run_down) {
       consider_flight();
     }
     stay_with_last();
@@ -325,6 +325,7 @@ void ManoeuvreChooser::meet_hazards(Voyage& voyage) const noexcept {
       voyage.cost_s += kCollision_s * (depth_m - voyage.depth_m[i]) * fading;
       voyage.depth_m[i] = depth_m;
       voyage.seen.collides = true;
+      voyage.seen.run_down |= hazard.velocity_m_s.norm() > kMoving_m_s;
     }
     voyage.cost_s += cost_of_crossing_ahead_s(hazard, after_s, voyage.own) * fading * step_s_;
   }

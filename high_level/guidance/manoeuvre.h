@@ -59,6 +59,7 @@ struct Foresight {
   double least_after_s = 0.0;      // [s] when
   std::uint32_t least_track = 0;   // [-] Track::id; 0: none
   bool collides = false;
+  bool run_down = false;  // collides with something that moves: to stop would not help
 };
 
 // An obstacle as it is foreseen: what is constant during one choice.

@@ -25,6 +25,9 @@ RunRecord run_lockstep(const LockstepRun& run) {
   for (const auto& entry : high.tasks()) {
     tasks.push_back(entry);
   }
+  if (run.on_tasks) {
+    run.on_tasks(tasks);
+  }
   SimClock clock;
   // Not zero: a stamp of zero means "never".
   clock.advance_to(Time{std::chrono::seconds{1}});

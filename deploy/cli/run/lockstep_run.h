@@ -5,9 +5,11 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "deploy/cli/run/settings.h"
 #include "deploy/cli/run/watcher.h"
+#include "mid_level/runtime/task.h"
 
 namespace lodesman::cli {
 
@@ -20,6 +22,8 @@ struct LockstepRun {
   const std::function<void(const RunProgress&)>& show;
   // For each plan, with the blackboard to take its frame from; may be empty.
   std::function<void(const Blackboard&, const Plan&, const SonarPath*, const PlanRecord&)> on_plan;
+  // May put others in the place of tasks, to measure them; may be empty.
+  std::function<void(std::vector<TaskEntry>&)> on_tasks = {};
 };
 
 // The record with its hash and real-time factor.
