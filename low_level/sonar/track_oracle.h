@@ -5,9 +5,9 @@
 // thread; it allocates when made and never after.
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "low_level/sonar/known_obstacles.h"
@@ -47,7 +47,9 @@ class TrackOracle {
   struct Near {
     double distance_m = 0.0;
     std::uint32_t index = 0;
-    friend auto operator<=>(const Near&, const Near&) = default;
+    [[nodiscard]] bool operator<(const Near& other) const noexcept {
+      return std::tie(distance_m, index) < std::tie(other.distance_m, other.index);
+    }
   };
   struct Seen {
     bool any = false;

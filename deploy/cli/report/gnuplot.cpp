@@ -64,7 +64,8 @@ void draw_picture(const std::filesystem::path& png, PictureSize size, const std:
   require_writable(png);
   {
     // The shell reads what a failed gnuplot leaves unread: this process would die of SIGPIPE.
-    Gnuplot gnuplot{"gnuplot -d; cat >/dev/null"};
+    // Outside a UTF-8 locale, as on a bare system, gnuplot 6 warns of a degree sign of its own.
+    Gnuplot gnuplot{"LC_ALL=C.UTF-8 gnuplot -d; cat >/dev/null"};
     gnuplot << "set encoding utf8\nset terminal pngcairo noenhanced font 'Sans,13' size "
             << size.width_px << ',' << size.height_px << "\nset output "
             << plot_text(std::filesystem::absolute(png).string()) << '\n'

@@ -75,7 +75,7 @@ TEST_CASE("task table: rows stand in the order of their tasks", "[mid_level][run
   }
 }
 
-TEST_CASE("recording hash: any published value, stamp or order changes it; wall times do not",
+TEST_CASE("recording hash: any published value, stamp or order changes it, wall times do not",
           "[mid_level][recording]") {
   const auto digest = [](std::int32_t head_ref, std::int64_t stamp, std::uint32_t wall_time) {
     const auto board = std::make_unique<Blackboard>();

@@ -34,7 +34,7 @@ class Counting final : public Task {
 }  // namespace
 
 TEST_CASE(
-    "real time: a task steps until it is stopped and is then made safe; missed periods are "
+    "real time: a task steps until it is stopped and is then made safe, missed periods are "
     "counted",
     "[mid_level][runtime]") {
   const auto board = std::make_unique<Blackboard>();
