@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "low_level/path/bit_lines.h"
+
+#include <algorithm>
+
+#include "mid_level/base/check.h"
+
+namespace lodesman {
+namespace {
+
+constexpr int kMaxWords = 64;  // a mask of words is itself a word
+
+void set_lines(std::uint64_t* bitmap, LineSpan lines) noexcept {
+  for (int line = lines.first; line <= lines.last;) {
+    const int bit = (line + 64) & 63;
+    const int run = std::min(64 - bit, lines.last - line + 1);
+    bitmap[(line + 64) >> 6] |= (~std::uint64_t{0} >> (64 - run)) << bit;
+    line += run;
+  }
+}
+
+}  // namespace
+
+BitLines::BitLines(int length, std::span<const LineSpan> outlines)
+    : lines_{static_cast<int>(outlines.size())},
+      length_{length},
+      used_words_{(length + 2) / 64 + 1},  // so that the last two bits of a line are always clear
+      stride_shift_{static_cast<int>(std::bit_width(static_cast<unsigned>(used_words_ - 1)))},
+      crowd_words_{static_cast<std::size_t>(lines_) / 64 + 3},
+      outlines_(outlines.begin(), outlines.end()),
+      even_(outlines.size()),
+      outline_words_((outlines.size() + 2 * kSpareLines) << stride_shift_) {
+  LODESMAN_CHECK(length > 0 && used_words_ <= kMaxWords && lines_ > 0);
+  outline_words_.resize(outline_words_.size() + 2);
+  words_ = outline_words_;
+  crowded_.resize(outlines.size() + 2);
+  crowd_.resize(static_cast<std::size_t>(used_words_) * crowd_words_);
+  ragged_up_ = crowd_;
+  ragged_down_ = crowd_;
+  for (int line = 0; line < lines_; ++line) {
+    const LineSpan span = outlines_[static_cast<std::size_t>(line)];
+    for (int place = span.first; place <= span.last; ++place) {
+      outline_words_[offset_of(line) + static_cast<std::size_t>(place >> 6)] |= std::uint64_t{1}
+                                                                                << (place & 63);
+    }
+  }
+  words_ = outline_words_;
+  find_ragged_ends();
+}
+
+// Where a line begins before its neighbour does, a run up it passes the place where the neighbour
+// begins: a turn may open there although nothing is crowded. The same at the other end, downwards.
+void BitLines::find_ragged_ends() {
+  for (int line = 0; line < lines_; ++line) {
+    const LineSpan own = outlines_[static_cast<std::size_t>(line)];
+    LineSpan even = own;
+    for (const int other : {line - 1, line + 1}) {
+      const LineSpan span =
+          other >= 0 && other < lines_ ? outlines_[static_cast<std::size_t>(other)] : LineSpan{};
+      if (span.first <= span.last) {
+        even.first = std::max(even.first, span.first);
+        even.last = std::min(even.last, span.last);
+      }
+    }
+    even_[static_cast<std::size_t>(line)] = even;
+    for (int word = 0; word < used_words_; ++word) {
+      const auto row = static_cast<std::size_t>(word) * crowd_words_;
+      const bool up =
+          even.first > own.first && word <= (even.first - 1) >> 6 && word + 1 >= own.first >> 6;
+      const bool down =
+          even.last < own.last && word >= (even.last + 1) >> 6 && word - 1 <= own.last >> 6;
+      if (up) {
+        set_lines(ragged_up_.data() + row, {line, line});
+      }
+      if (down) {
+        set_lines(ragged_down_.data() + row, {line, line});
+      }
+    }
+  }
+}
+
+void BitLines::clear() noexcept {
+  for (std::size_t i = 0; i < taken_count_; ++i) {
+    const Taken& taken = taken_[i];
+    const auto count = static_cast<std::size_t>(taken.words.last - taken.words.first + 1);
+    std::size_t at = offset_of(taken.lines.first) + static_cast<std::size_t>(taken.words.first);
+    for (int line = taken.lines.first; line <= taken.lines.last; ++line) {
+      for (std::size_t word = 0; word < count; ++word) {
+        words_.data()[at + word] = outline_words_.data()[at + word];
+      }
+      at += std::size_t{1} << stride_shift_;
+    }
+  }
+  taken_count_ = 0;
+  std::fill(crowded_.begin(), crowded_.end(), 0);
+  std::fill(crowd_.begin(), crowd_.end(), 0);
+}
+
+void BitLines::block_all() noexcept {
+  announce({0, lines_ - 1}, {0, length_ - 1});
+  for (int line = 0; line < lines_; ++line) {
+    if (const LineSpan span = outline(line); span.first <= span.last) {
+      block(line, span);
+    }
+  }
+}
+
+void BitLines::announce(LineSpan lines, LineSpan places) noexcept {
+  lines = {std::max(lines.first, 0), std::min(lines.last, lines_ - 1)};
+  places = {std::max(places.first, 0), std::min(places.last, length_ - 1)};
+  if (lines.first > lines.last || places.first > places.last) {
+    return;
+  }
+  const LineSpan words{places.first >> 6, places.last >> 6};
+  if (taken_count_ < kMaxTaken) {
+    taken_[taken_count_++] = {lines, words};
+  } else {
+    Taken& last = taken_.back();
+    last = {{std::min(last.lines.first, lines.first), std::max(last.lines.last, lines.last)},
+            {std::min(last.words.first, words.first), std::max(last.words.last, words.last)}};
+  }
+  // A corner is felt one line and one place beside it.
+  const LineSpan felt{std::max(lines.first - 1, 0), std::min(lines.last + 1, lines_ - 1)};
+  for (std::uint64_t rest = words_round(places); rest != 0; rest &= rest - 1) {
+    const auto word = static_cast<std::size_t>(std::countr_zero(rest));
+    if (word < static_cast<std::size_t>(used_words_)) {
+      set_lines(crowd_.data() + word * crowd_words_, felt);
+    }
+  }
+}
+
+}  // namespace lodesman

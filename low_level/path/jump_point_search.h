@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cheapest path of the paper's "4-geometry" (moves.h) by jump point search: A* (the paper's
+// section 3, eq. (1)) that looks at corners instead of pixels. Owned by one thread; it allocates
+// when made and never after.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "low_level/path/bucket_queue.h"
+#include "low_level/path/grid.h"
+#include "low_level/path/joined.h"
+#include "low_level/path/search_result.h"
+#include "low_level/path/tie_break.h"
+
+namespace lodesman {
+
+// In open water all orders of the same steps cost the same, so one order is enough: diagonal steps
+// first, then straight ones. A path in that order changes its mind only where an obstacle's corner
+// makes it, at a jump point: a pixel reached by a straight step, beside which a pixel is free and
+// the one before that was blocked. The search goes from jump point to jump point. From one it runs
+// out along the directions that can be of use; a run over 64 pixels is a few operations on words
+// (BitLines). docs/search.md explains it with more room.
+//
+// The search starts from the goal and goes on until nothing in the open list is as cheap as the
+// found cost. Then the cost to the goal of every pixel on any cheapest path is known from the jump
+// points in view of it, and the path is walked forwards from the start by the rule of tie_break.h,
+// exactly.
+class JumpPointSearch {
+ public:
+  // For grids of this shape.
+  explicit JumpPointSearch(const FanShape& fan = {}, SearchLimits limits = {});
+
+  // Start and goal must be passable. Ends as kFound, kNoPath or kLimit: more expansions than
+  // allowed, or a path of more than kMaxPathPixels. The path is valid until the next search.
+  [[nodiscard]] SearchResult search(const PassableGrid& grid, PathPixel start,
+                                    PathPixel goal) noexcept;
+
+ private:
+  static constexpr std::int32_t kNone = -1;
+  using Directions = std::uint8_t;  // a bit a direction of kSteps
+
+  // A jump point, or the goal.
+  struct Node {
+    PathPixel pixel;
+    std::int32_t cost = 0;  // to the goal
+    Directions todo = 0;    // to run out along when it is taken from the open list
+    Directions done = 0;
+    // How far its diagonals have been found free, by direction / 2.
+    std::array<std::int16_t, 4> reach{};
+    std::int32_t next = kNone;  // with the same hash
+  };
+  // What the open list holds: a node to expand, or one of its diagonals to run further along.
+  struct Open {
+    std::int32_t node = 0;
+    std::int32_t diagonal = -1;  // the direction; none: expand the node
+  };
+  // Lines where a run up or down from a word of the line may stop for anything but the outline.
+  struct Outlook {
+    explicit Outlook(const BitLines& lines);
+    void look(const BitLines& lines) noexcept;
+    template <int kWay>
+    [[nodiscard]] const std::uint64_t* ahead(int word) const noexcept {
+      return (kWay > 0 ? up.data() : down.data()) + static_cast<std::size_t>(word) * stride;
+    }
+    std::size_t stride;
+    std::vector<std::uint64_t> up;
+    std::vector<std::uint64_t> down;
+  };
+  struct Way;
+  class Choices;
+  // A node during the walk.
+  struct Sight {
+    PathPixel pixel;
+    std::int32_t cost = 0;
+    std::array<std::int16_t, 4> reach{};
+  };
+
+  void begin(const PassableGrid& grid, PathPixel start, PathPixel goal) noexcept;
+  [[nodiscard]] PathReason settle(PathPixel goal, std::uint32_t& expansions) noexcept;
+  void expand(std::int32_t node) noexcept;
+  void run(std::int32_t node, int direction) noexcept;
+  template <int kDirection>
+  void run_straight(PathPixel from, std::int32_t cost) noexcept;
+  template <int kDirection>
+  void run_diagonal(std::int32_t node) noexcept;
+  template <int kDirection>
+  [[nodiscard]] int free_diagonal(PathPixel from) const noexcept;
+  [[nodiscard]] int fan_diagonal(PathPixel from, int direction) const noexcept;
+  [[nodiscard]] std::int32_t node_at(PathPixel pixel) noexcept;
+  void reach(PathPixel pixel, std::int32_t cost, Directions directions) noexcept;
+  void push(PathPixel at, std::int32_t cost, Open open) noexcept;
+
+  [[nodiscard]] bool walk(PathPixel goal) noexcept;
+  void look_round(bool may_turn) noexcept;
+  [[nodiscard]] bool leads_to(PathPixel from, const Sight& sight) const noexcept;
+  [[nodiscard]] bool on_cheapest(PathPixel pixel, std::int32_t left) const noexcept;
+  [[nodiscard]] bool may_step(PathPixel from, int direction) const noexcept;
+  void arrive(PathPixel pixel, std::int32_t left) noexcept;
+  [[nodiscard]] const Sight& find_guide() const noexcept;
+  void stride(const TieBreak& rule) noexcept;
+  void follow(const Sight& guide, Choices& choices) noexcept;
+  void choose(const Sight& guide, Choices& choices) noexcept;
+
+  FanShape fan_;
+  SearchLimits limits_;
+  // The columns in which a diagonal lies in the fan with both its sides, less the last: of those
+  // that rise by column + row, of those that fall by column - row + rows.
+  std::vector<LineSpan> rising_;
+  std::vector<LineSpan> falling_;
+
+  const PassableGrid* grid_ = nullptr;  // during a search
+  PathPixel start_;
+  std::int32_t best_ = 0;  // cost of the cheapest path so far
+  bool full_ = false;      // the open list had no room
+  Outlook rows_ahead_;
+  Outlook columns_ahead_;
+  BucketQueue<Open> open_;
+  std::vector<Node> nodes_;
+  std::int32_t node_count_ = 0;
+  std::vector<std::int32_t> hash_heads_;  // of chains of nodes; of this search if the node fits
+  Joined joined_;
+
+  // The walk: where it is, what is left to pay, and the nodes that a path of that cost leads to in
+  // no more than two directions, or may do so further on.
+  PathPixel at_;
+  std::int32_t left_ = 0;
+  std::vector<Sight> in_sight_;
+  std::vector<Sight> waiting_;
+  std::size_t in_sight_count_ = 0;
+  std::size_t waiting_count_ = 0;
+  std::vector<PathPixel> path_;
+  std::size_t path_count_ = 0;
+};
+
+}  // namespace lodesman
