@@ -105,6 +105,33 @@ void BitLines::block_all() noexcept {
   }
 }
 
+// Written without branches but for spans of more than two words: how long the next one is cannot
+// be foretold.
+void BitLines::block(int line, int count, const std::int32_t* first,
+                     const std::int32_t* last) noexcept {
+  const LineSpan* const outlines = outlines_.data() + line;
+  std::uint64_t* const crowded = crowded_.data() + line + 1;
+  std::uint64_t* words = line_of(line);
+  const std::size_t stride = std::size_t{1} << stride_shift_;
+  for (int i = 0; i < count; ++i, words += stride) {
+    const LineSpan span{std::max(first[i], outlines[i].first), std::min(last[i], outlines[i].last)};
+    if (span.first > span.last) {
+      continue;
+    }
+    const int first_word = span.first >> 6;
+    const int last_word = span.last >> 6;
+    const std::uint64_t from_first = kAll << (span.first & 63);
+    const std::uint64_t to_last = kAll >> (63 - (span.last & 63));
+    const std::uint64_t is_one_word = first_word == last_word ? kAll : 0;
+    words[first_word] &= ~(from_first & (to_last | ~is_one_word));
+    words[last_word] &= ~(to_last & (from_first | ~is_one_word));
+    for (int word = first_word + 1; word < last_word; ++word) {
+      words[word] = 0;
+    }
+    crowded[i] |= words_round(span);
+  }
+}
+
 void BitLines::announce(LineSpan lines, LineSpan places) noexcept {
   lines = {std::max(lines.first, 0), std::min(lines.last, lines_ - 1)};
   places = {std::max(places.first, 0), std::min(places.last, length_ - 1)};

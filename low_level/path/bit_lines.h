@@ -36,23 +36,10 @@ class BitLines {
   void block_all() noexcept;
 
   // Blocks places of one line. They must lie in its outline, and announce() must have been told.
-  void block(int line, LineSpan span) noexcept {
-    const auto first = static_cast<unsigned>(span.first);
-    const auto last = static_cast<unsigned>(span.last);
-    const std::uint64_t from_first = kAll << (first % 64);
-    const std::uint64_t to_last = kAll >> (63 - last % 64);
-    std::uint64_t* const words = line_of(line);
-    if (first / 64 == last / 64) {
-      words[first / 64] &= ~(from_first & to_last);
-    } else {
-      words[first / 64] &= ~from_first;
-      for (unsigned i = first / 64 + 1; i < last / 64; ++i) {
-        words[i] = 0;
-      }
-      words[last / 64] &= ~to_last;
-    }
-    crowded_.data()[line + 1] |= words_round(span);
-  }
+  void block(int line, LineSpan span) noexcept { block(line, 1, &span.first, &span.last); }
+  // The same for `count` lines from `line` on, each with what lies in its outline of the places
+  // from first[i] to last[i].
+  void block(int line, int count, const std::int32_t* first, const std::int32_t* last) noexcept;
   // Of one word of a line, keeps free only what is free in `free`. As for block().
   void keep(int line, int word, std::uint64_t free) noexcept {
     std::uint64_t& own = line_of(line)[word];

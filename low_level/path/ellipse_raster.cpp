@@ -21,6 +21,7 @@ struct Conic {
   double mixed;
   double area;    // a * b
   double height;  // of the ellipse, in lines, from its centre
+  double width;   // in places
   bool is_tame;
 };
 
@@ -37,6 +38,7 @@ Conic conic_of(const EllipsePx& e, double cos_theta, double sin_theta, double ce
   conic.mixed = cos_a * sin_a - sin_b * cos_b;
   conic.area = e.a * e.b;
   conic.height = conic.area * std::sqrt(conic.along);
+  conic.width = conic.area * std::sqrt(sin_a * sin_a + cos_b * cos_b);
   conic.is_tame = std::min(e.a, e.b) >= 0.5 && std::max(e.a, e.b) <= 5000.0 &&
                   std::max(e.a, e.b) <= 100.0 * std::min(e.a, e.b) && std::abs(centre_p) <= 1e5 &&
                   std::abs(centre_q) <= 1e5 &&
@@ -99,57 +101,46 @@ struct Batch {
 
 template <class Contains>
 void draw(const Conic& conic, BitLines& lines, Contains contains) noexcept {
-  const LineSpan all =
-      conic.is_tame
-          ? LineSpan{first_from(conic.centre_q - conic.height - kUnsure, 0, lines.lines()),
-                     last_from(conic.centre_q + conic.height + kUnsure, 0, lines.lines()) - 1}
-          : lines_between(conic.centre_q - conic.height, conic.centre_q + conic.height,
-                          lines.lines());
+  const double slack = conic.is_tame ? kUnsure : 2.0;
+  const LineSpan all{first_from(conic.centre_q - conic.height - slack, 0, lines.lines()),
+                     last_from(conic.centre_q + conic.height + slack, 0, lines.lines()) - 1};
+  LineSpan places{0, lines.length() - 1};
+  if (conic.is_tame) {
+    places =
+        lines_between(conic.centre_p - conic.width, conic.centre_p + conic.width, lines.length());
+  }
+  if (all.first > all.last || places.first > places.last) {
+    return;
+  }
+  lines.announce(all, places);
   Batch batch;
   for (int line = all.first; line <= all.last; line += kBatch) {
     const int count = std::min(kBatch, all.last - line + 1);
     batch.work_out(conic, line, count, lines.length());
     for (int i = 0; i < count; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      const LineSpan outline = lines.outline(line + i);
-      LineSpan span{std::max(batch.first.data()[at], outline.first),
-                    std::min(batch.last.data()[at], outline.last)};
       if (!conic.is_tame || batch.doubt.data()[at] < 0.0) {
-        span = exact_span(outline, batch.low.data()[at], batch.high.data()[at],
-                          [&](int place) { return contains(place, line + i); });
-      }
-      if (span.first <= span.last) {
-        lines.block(line + i, span);
+        const LineSpan span =
+            exact_span(lines.outline(line + i), batch.low.data()[at], batch.high.data()[at],
+                       [&](int place) { return contains(place, line + i); });
+        batch.first.data()[at] = span.first;
+        batch.last.data()[at] = span.last;
       }
     }
+    lines.block(line, count, batch.first.data(), batch.last.data());
   }
-}
-
-void announce(const Conic& conic, double width, BitLines& lines) noexcept {
-  const LineSpan everything{0, std::max(lines.lines(), lines.length())};
-  if (!conic.is_tame) {
-    lines.announce(everything, everything);
-    return;
-  }
-  lines.announce(
-      lines_between(conic.centre_q - conic.height, conic.centre_q + conic.height, lines.lines()),
-      lines_between(conic.centre_p - width, conic.centre_p + width, lines.length()));
 }
 
 }  // namespace
 
 void draw_in_rows(const EllipsePx& e, BitLines& rows) noexcept {
   const Conic conic = conic_of(e, e.cos_theta, e.sin_theta, e.centre.column, e.centre.row);
-  const double width = std::hypot(e.a * e.cos_theta, e.b * e.sin_theta);
-  announce(conic, width, rows);
   draw(conic, rows, [&](int column, int row) { return e.contains(column, row); });
 }
 
 void draw_in_columns(const EllipsePx& e, BitLines& columns) noexcept {
   // With rows and columns changed over, an ellipse turned by theta is turned by pi/2 - theta.
   const Conic conic = conic_of(e, e.sin_theta, e.cos_theta, e.centre.row, e.centre.column);
-  const double width = std::hypot(e.a * e.sin_theta, e.b * e.cos_theta);
-  announce(conic, width, columns);
   draw(conic, columns, [&](int row, int column) { return e.contains(column, row); });
 }
 

@@ -4,16 +4,16 @@
 // when made and never after.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "low_level/path/bucket_queue.h"
 #include "low_level/path/grid.h"
 #include "low_level/path/joined.h"
+#include "low_level/path/path_walk.h"
 #include "low_level/path/search_result.h"
-#include "low_level/path/tie_break.h"
 
 namespace lodesman {
 
@@ -26,8 +26,7 @@ namespace lodesman {
 //
 // The search starts from the goal and goes on until nothing in the open list is as cheap as the
 // found cost. Then the cost to the goal of every pixel on any cheapest path is known from the jump
-// points in view of it, and the path is walked forwards from the start by the rule of tie_break.h,
-// exactly.
+// points in view of it, and PathWalk follows the rule of tie_break.h from the start, exactly.
 class JumpPointSearch {
  public:
   // For grids of this shape.
@@ -42,14 +41,10 @@ class JumpPointSearch {
   static constexpr std::int32_t kNone = -1;
   using Directions = std::uint8_t;  // a bit a direction of kSteps
 
-  // A jump point, or the goal.
   struct Node {
-    PathPixel pixel;
-    std::int32_t cost = 0;  // to the goal
-    Directions todo = 0;    // to run out along when it is taken from the open list
+    JumpPoint point;
+    Directions todo = 0;  // to run out along when it is taken from the open list
     Directions done = 0;
-    // How far its diagonals have been found free, by direction / 2.
-    std::array<std::int16_t, 4> reach{};
     std::int32_t next = kNone;  // with the same hash
   };
   // What the open list holds: a node to expand, or one of its diagonals to run further along.
@@ -69,15 +64,6 @@ class JumpPointSearch {
     std::vector<std::uint64_t> up;
     std::vector<std::uint64_t> down;
   };
-  struct Way;
-  class Choices;
-  // A node during the walk.
-  struct Sight {
-    PathPixel pixel;
-    std::int32_t cost = 0;
-    std::array<std::int16_t, 4> reach{};
-  };
-
   void begin(const PassableGrid& grid, PathPixel start, PathPixel goal) noexcept;
   [[nodiscard]] PathReason settle(PathPixel goal, std::uint32_t& expansions) noexcept;
   void expand(std::int32_t node) noexcept;
@@ -93,16 +79,7 @@ class JumpPointSearch {
   void reach(PathPixel pixel, std::int32_t cost, Directions directions) noexcept;
   void push(PathPixel at, std::int32_t cost, Open open) noexcept;
 
-  [[nodiscard]] bool walk(PathPixel goal) noexcept;
-  void look_round(bool may_turn) noexcept;
-  [[nodiscard]] bool leads_to(PathPixel from, const Sight& sight) const noexcept;
-  [[nodiscard]] bool on_cheapest(PathPixel pixel, std::int32_t left) const noexcept;
-  [[nodiscard]] bool may_step(PathPixel from, int direction) const noexcept;
-  void arrive(PathPixel pixel, std::int32_t left) noexcept;
-  [[nodiscard]] const Sight& find_guide() const noexcept;
-  void stride(const TieBreak& rule) noexcept;
-  void follow(const Sight& guide, Choices& choices) noexcept;
-  void choose(const Sight& guide, Choices& choices) noexcept;
+  [[nodiscard]] std::span<const PathPixel> walk(PathPixel goal) noexcept;
 
   FanShape fan_;
   SearchLimits limits_;
@@ -122,17 +99,7 @@ class JumpPointSearch {
   std::int32_t node_count_ = 0;
   std::vector<std::int32_t> hash_heads_;  // of chains of nodes; of this search if the node fits
   Joined joined_;
-
-  // The walk: where it is, what is left to pay, and the nodes that a path of that cost leads to in
-  // no more than two directions, or may do so further on.
-  PathPixel at_;
-  std::int32_t left_ = 0;
-  std::vector<Sight> in_sight_;
-  std::vector<Sight> waiting_;
-  std::size_t in_sight_count_ = 0;
-  std::size_t waiting_count_ = 0;
-  std::vector<PathPixel> path_;
-  std::size_t path_count_ = 0;
+  PathWalk walk_;
 };
 
 }  // namespace lodesman

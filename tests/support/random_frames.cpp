@@ -39,7 +39,7 @@ EllipsePx FrameMaker::ellipse() {
 // Discs that overlap, in a straight row.
 void FrameMaker::add_discs(std::vector<EllipsePx>& to, PointPx from, PointPx along, double radius) {
   const double length = std::hypot(along.column, along.row);
-  const int count = std::max(1, static_cast<int>(std::ceil(length / radius)));
+  const int count = std::max(1, static_cast<int>(std::ceil(length / (1.6 * radius))));
   for (int i = 0; i <= count; ++i) {
     const double share = static_cast<double>(i) / count;
     to.push_back(
@@ -50,8 +50,8 @@ void FrameMaker::add_discs(std::vector<EllipsePx>& to, PointPx from, PointPx alo
 // The same on a circle; bearings run clockwise from straight ahead.
 void FrameMaker::add_arc(std::vector<EllipsePx>& to, PointPx centre, double radius, double from_rad,
                          double to_rad) {
-  const double disc = std::max(2.0, 0.25 * radius);
-  const int count = static_cast<int>(std::ceil((to_rad - from_rad) * radius / disc));
+  const double disc = std::max(2.0, 0.45 * radius);
+  const int count = static_cast<int>(std::ceil((to_rad - from_rad) * radius / (1.5 * disc)));
   for (int i = 0; i <= count; ++i) {
     const double bearing = from_rad + (to_rad - from_rad) * i / count;
     to.push_back(
@@ -63,10 +63,10 @@ void FrameMaker::add_arc(std::vector<EllipsePx>& to, PointPx centre, double radi
 
 // Across the whole view, with a gap somewhere in it, or none.
 void FrameMaker::add_wall(std::vector<EllipsePx>& to, double gap) {
-  const double radius = number(10.0, 25.0) * scale_;
-  const double row = fan_.apex_row - number(120.0, 260.0) * scale_;
+  const double radius = number(28.0, 40.0) * scale_;
+  const double row = fan_.apex_row - number(120.0, 230.0) * scale_;
   const double tilt = number(-0.15, 0.15);
-  const double reach = fan_.columns;
+  const double reach = 1.8 * (fan_.apex_row - row);  // beyond the sides of the fan
   const double opening = gap > 0.0 ? number(-120.0, 120.0) * scale_ : 0.0;
   const auto at = [&](double off) { return PointPx{fan_.apex_column + off, row + tilt * off}; };
   for (const double side : {-1.0, 1.0}) {
@@ -103,18 +103,18 @@ void FrameMaker::add_obstacles(RandomFrame& frame) {
       const PointPx base{fan_.apex_column + share * way.column, fan_.apex_row + share * way.row};
       const double half = number(50.0, 110.0) * scale_;
       const double arm = number(60.0, 120.0) * scale_;
-      const double disc = number(8.0, 14.0) * scale_;
+      const double disc = number(18.0, 26.0) * scale_;
       add_discs(to, {base.column - half, base.row}, {2.0 * half, 0.0}, disc);
       add_discs(to, {base.column - half, base.row}, {0.0, arm}, disc);
       add_discs(to, {base.column + half, base.row}, {0.0, arm}, disc);
       return;
     }
-    case FrameKind::kNarrow: some(0, 2); return add_wall(to, number(2.0, 8.0));
+    case FrameKind::kNarrow: return add_wall(to, number(2.0, 8.0));
     case FrameKind::kPocket: {
       some(1, 4);
       const double open = number(0.0, 2.0 * std::numbers::pi);
-      return add_arc(to, goal, number(35.0, 70.0) * scale_, open + 0.6,
-                     open + 2.0 * std::numbers::pi - 0.6);
+      return add_arc(to, goal, number(45.0, 75.0) * scale_, open + 0.7,
+                     open + 2.0 * std::numbers::pi - 0.7);
     }
     case FrameKind::kNoPath:
       some(2, 5);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <tuple>
 #include <utility>
 
 #include "tests/support/catch.h"
@@ -80,17 +81,16 @@ std::vector<int> costs_to(const PassableGrid& grid, const Window& window, PathPi
   return cost;
 }
 
-// Of a step's end, the smaller the better: its distance from the line between start and goal, and
-// a little more where that is to port, and a very little for the way to the goal that is left.
-double dislike_of(PathPixel end, PathPixel start, PathPixel goal) {
+// Of a step's end, the smaller the better: its distance from the line between start and goal, then
+// whether that is to port, then the way to the goal that is left.
+std::tuple<double, bool, double> dislike_of(PathPixel end, PathPixel start, PathPixel goal) {
   const double across = goal.column - start.column;
   const double ahead = start.row - goal.row;
   const double length = std::hypot(across, ahead);
   const double off =
       length > 0.0 ? ((end.column - start.column) * ahead - (start.row - end.row) * across) / length
                    : 0.0;
-  const double left = std::hypot(goal.column - end.column, goal.row - end.row);
-  return std::abs(off) + (off < -1e-9 ? 1e-6 : 0.0) + 1e-12 * left;
+  return {std::abs(off), off < 0.0, std::hypot(goal.column - end.column, goal.row - end.row)};
 }
 
 }  // namespace
@@ -135,7 +135,7 @@ std::vector<PathPixel> path_by_rule(const PassableGrid& grid, const Window& wind
   while (!same(path.back(), goal)) {
     const PathPixel at = path.back();
     const int cost = cost_to_goal[window.index(at)];
-    std::vector<std::pair<double, PathPixel>> choices;
+    std::vector<std::pair<std::tuple<double, bool, double>, PathPixel>> choices;
     for (const PathPixel next : neighbours(at)) {
       if (window.holds(next) && may_step(grid, at, next) &&
           cost_to_goal[window.index(next)] + step_cost(at, next) == cost) {

@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "low_level/path/path_walk.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+
+#include "low_level/path/pixel_steps.h"
+
+namespace lodesman {
+
+// The steps that the walk may choose from, and how often each may be taken before the nodes in
+// sight must be looked at anew.
+class PathWalk::Choices {
+ public:
+  Choices(const TieBreak& rule, PathPixel at) noexcept : rule_{rule}, off_{rule.off(at)} {}
+
+  void add(const Way& way) noexcept {
+    if (way.straights > 0) {
+      allow(way.straight, way.straights);
+    }
+    if (way.diagonals > 0) {
+      allow(way.diagonal, way.diagonals);
+    }
+  }
+  // A step that does not lead to all of the nodes in sight loses one of them.
+  void close(std::size_t nodes) noexcept {
+    for (unsigned rest = directions_; rest != 0; rest &= rest - 1) {
+      const int direction = std::countr_zero(rest);
+      Choice& choice = choices_.data()[count_++];
+      const auto d = static_cast<std::size_t>(direction);
+      choice.direction = direction;
+      choice.change = rule_.change_off(step_of(direction).column, step_of(direction).row);
+      choice.times = leading_.data()[d] == nodes ? times_.data()[d] : 1;
+    }
+  }
+  [[nodiscard]] bool spent() const noexcept { return spent_; }
+  // Whether there is no other than the steps of one way.
+  [[nodiscard]] bool are_of(const Way& way) const noexcept {
+    return (directions_ & ~(1U << way.straight | 1U << way.diagonal)) == 0;
+  }
+  [[nodiscard]] int times(int direction) const noexcept {
+    for (int i = 0; i < count_; ++i) {
+      if (choices_.data()[i].direction == direction) {
+        return choices_.data()[i].times;
+      }
+    }
+    return 0;
+  }
+
+  // Orders the choices at a pixel; then best() is the one that the rule takes of those that have
+  // not been refused.
+  void weigh(PathPixel at) noexcept {
+    at_ = at;
+    refused_ = 0;
+    for (int i = 0; i < count_; ++i) {
+      Choice& choice = choices_.data()[i];
+      choice.key = TieBreak::key(off_ + choice.change);
+    }
+    find_best();
+  }
+  [[nodiscard]] int best() const noexcept { return choices_.data()[best_].direction; }
+  void refuse() noexcept {
+    refused_ |= 1U << best_;
+    find_best();
+  }
+  void take() noexcept {
+    Choice& choice = choices_.data()[best_];
+    off_ += choice.change;
+    spent_ = --choice.times == 0;
+  }
+
+ private:
+  struct Choice {
+    int direction;
+    int change;
+    int times;
+    int key;
+  };
+
+  void allow(int direction, int times) noexcept {
+    const auto d = static_cast<std::size_t>(direction);
+    const bool is_new = (directions_ >> direction & 1U) == 0;
+    directions_ |= 1U << direction;
+    times_.data()[d] = is_new ? times : std::min(times, times_.data()[d]);
+    leading_.data()[d] = is_new ? 1 : leading_.data()[d] + 1;
+  }
+  void find_best() noexcept {
+    best_ = -1;
+    for (int i = 0; i < count_; ++i) {
+      if ((refused_ >> i & 1U) == 0 && (best_ < 0 || is_before(i, best_))) {
+        best_ = i;
+      }
+    }
+  }
+  [[nodiscard]] bool is_before(int i, int j) const noexcept {
+    const Choice& a = choices_.data()[i];
+    const Choice& b = choices_.data()[j];
+    return a.key < b.key || (a.key == b.key && rule_.left(moved(at_, a.direction, 1)) <
+                                                   rule_.left(moved(at_, b.direction, 1)));
+  }
+
+  const TieBreak& rule_;
+  int off_;
+  PathPixel at_;
+  unsigned directions_ = 0;
+  std::array<int, kDirections> times_;
+  std::array<std::size_t, kDirections> leading_;
+  std::array<Choice, kDirections> choices_;
+  int count_ = 0;
+  unsigned refused_ = 0;
+  int best_ = 0;
+  bool spent_ = false;
+};
+
+// Steps in the two directions of a guide's way. The way is free straight first and then diagonally,
+// and so is what a straight step leaves of it. A diagonal step before its time leaves a free way if
+// the line beside is free as far as the way runs along it.
+class PathWalk::Leg {
+ public:
+  Leg(const PassableGrid& grid, const TieBreak& rule, PathPixel at, PathPixel guide) noexcept
+      : way_{at, guide},
+        straight_{step_of(way_.straight)},
+        diagonal_{step_of(way_.diagonal)},
+        change_straight_{rule.change_off(straight_.column, straight_.row)},
+        change_diagonal_{rule.change_off(diagonal_.column, diagonal_.row)},
+        off_{rule.off(at)},
+        is_upright_{straight_.column == 0},
+        lines_{is_upright_ ? grid.columns() : grid.rows()},
+        rule_{rule},
+        at_{at} {}
+
+  [[nodiscard]] PathPixel at() const noexcept { return at_; }
+  [[nodiscard]] int direction(bool straight) const noexcept {
+    return straight ? way_.straight : way_.diagonal;
+  }
+  [[nodiscard]] bool prefers_straight() const noexcept {
+    const int straight = TieBreak::key(off_ + change_straight_);
+    const int diagonal = TieBreak::key(off_ + change_diagonal_);
+    if (straight != diagonal) {
+      return straight < diagonal;
+    }
+    const int left_s = rule_.left(moved(at_, straight_, 1));
+    const int left_d = rule_.left(moved(at_, diagonal_, 1));
+    return left_s < left_d || (left_s == left_d && way_.straight < way_.diagonal);
+  }
+  // Whether the guide's way allows the step.
+  [[nodiscard]] bool allows(bool straight) noexcept {
+    if (straight || way_.straights == 0 || way_.diagonals == 0) {
+      return (straight ? way_.straights : way_.diagonals) > 0;
+    }
+    if (refused_ == 0) {
+      refused_ = look_beside();
+    }
+    return refused_ == 0;
+  }
+  void take(bool straight) noexcept {
+    at_ = moved(at_, straight ? straight_ : diagonal_, 1);
+    off_ += straight ? change_straight_ : change_diagonal_;
+    way_.straights -= straight ? 1 : 0;
+    way_.diagonals -= straight ? 0 : 1;
+    refused_ = straight && refused_ > 0 ? refused_ - 1 : 0;
+  }
+
+ private:
+  // How many straight steps must come before a diagonal one.
+  [[nodiscard]] int look_beside() const noexcept {
+    const int line = is_upright_ ? at_.column + diagonal_.column : at_.row + diagonal_.row;
+    const int place = is_upright_ ? at_.row : at_.column;
+    if (!lines_.is_free(line, place)) {
+      return 1;
+    }
+    const int way = is_upright_ ? straight_.row : straight_.column;
+    const int blocked = lines_.blocked_between(line, place, place + way * (way_.straights + 1));
+    return blocked == BitLines::kNone ? 0 : std::abs(blocked - place) + 1;
+  }
+
+  Way way_;
+  Step straight_;
+  Step diagonal_;
+  int change_straight_;
+  int change_diagonal_;
+  int off_;
+  bool is_upright_;
+  const BitLines& lines_;
+  const TieBreak& rule_;
+  PathPixel at_;
+  int refused_ = 0;  // straight steps for which a diagonal one is known to be impossible
+};
+
+PathWalk::PathWalk(std::size_t capacity)
+    : in_sight_(capacity), waiting_(capacity), path_(kMaxPathPixels) {}
+
+void PathWalk::begin(PathPixel start, PathPixel goal, std::int32_t cost) noexcept {
+  start_ = start;
+  goal_ = goal;
+  at_ = start;
+  left_ = cost;
+  in_sight_count_ = 0;
+  waiting_count_ = 0;
+}
+
+void PathWalk::add(const JumpPoint& point) noexcept { waiting_.data()[waiting_count_++] = point; }
+
+std::span<const PathPixel> PathWalk::walk(const PassableGrid& grid) noexcept {
+  grid_ = &grid;
+  const TieBreak rule{start_, goal_};
+  path_.data()[0] = at_;
+  path_count_ = 1;
+  look_round(true);
+  while (!same(at_, goal_)) {
+    if (path_count_ == path_.size()) {
+      return {};
+    }
+    stride(rule);
+  }
+  return std::span<const PathPixel>{path_}.first(path_count_);
+}
+
+bool PathWalk::may_step(PathPixel from, int direction) const noexcept {
+  const BitLines& rows = grid_->rows();
+  const PathPixel to = moved(from, direction, 1);
+  return rows.is_free(to.row, to.column) &&
+         (!is_diagonal(direction) ||
+          (rows.is_free(to.row, from.column) && rows.is_free(from.row, to.column)));
+}
+
+// Whether a run out from the node, diagonally and then straight, came past the pixel.
+bool PathWalk::leads_to(PathPixel from, const JumpPoint& point) const noexcept {
+  const int columns = point.pixel.column - from.column;
+  const int rows = point.pixel.row - from.row;
+  const int diagonal = std::min(std::abs(columns), std::abs(rows));
+  if (diagonal > 0) {
+    const int back = columns > 0 ? (rows > 0 ? 7 : 5) : (rows > 0 ? 1 : 3);
+    if (diagonal > point.reach[static_cast<std::size_t>(back / 2)]) {
+      return false;
+    }
+  }
+  if (std::abs(columns) >= std::abs(rows)) {
+    const int turn = point.pixel.column - (columns > 0 ? diagonal : -diagonal);
+    return grid_->rows().blocked_between(from.row, from.column, turn) == BitLines::kNone;
+  }
+  const int turn = point.pixel.row - (rows > 0 ? diagonal : -diagonal);
+  return grid_->columns().blocked_between(from.column, from.row, turn) == BitLines::kNone;
+}
+
+// Whether a step from a pixel may be taken and leads to a jump point in sight at the cost that is
+// left before it.
+bool PathWalk::is_cheapest(PathPixel from, int direction, std::int32_t left) const noexcept {
+  if (!may_step(from, direction)) {
+    return false;
+  }
+  const PathPixel end = moved(from, direction, 1);
+  const JumpPoint* const sights = in_sight_.data();
+  for (std::size_t i = 0; i < in_sight_count_; ++i) {
+    if (octile(end, sights[i].pixel) + sights[i].cost == left - cost_of(direction) &&
+        leads_to(end, sights[i])) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Sorts the jump points anew: those whose cost and way fit what is left are in sight; those that
+// would be too cheap wait, for something lies between; those too dear are past. Where nothing can
+// have come into sight, the waiting ones are let be.
+void PathWalk::look_round(bool may_turn) noexcept {
+  JumpPoint* const sights = in_sight_.data();
+  JumpPoint* const waiting = waiting_.data();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < in_sight_count_; ++i) {
+    if (octile(at_, sights[i].pixel) + sights[i].cost == left_ && !same(at_, sights[i].pixel)) {
+      sights[kept++] = sights[i];
+    }
+  }
+  in_sight_count_ = kept;
+  if (!may_turn) {
+    return;
+  }
+  kept = 0;
+  for (std::size_t i = 0; i < waiting_count_; ++i) {
+    const std::int32_t cost = octile(at_, waiting[i].pixel) + waiting[i].cost;
+    if (cost < left_) {
+      waiting[kept++] = waiting[i];
+    } else if (cost == left_ && !same(at_, waiting[i].pixel)) {
+      sights[in_sight_count_++] = waiting[i];
+    }
+  }
+  waiting_count_ = kept;
+}
+
+void PathWalk::arrive(PathPixel pixel, std::int32_t left) noexcept {
+  bool may_turn = false;
+  const JumpPoint* const sights = in_sight_.data();
+  for (std::size_t i = 0; i < in_sight_count_; ++i) {
+    may_turn = may_turn || same(pixel, sights[i].pixel) ||
+               (Way{pixel, sights[i].pixel}.is_line() && !Way{at_, sights[i].pixel}.is_line());
+  }
+  at_ = pixel;
+  left_ = left;
+  look_round(may_turn);
+}
+
+// A jump point in sight that the pixel leads to. There is one: the last on the way by which the
+// search came past the pixel.
+const JumpPoint& PathWalk::find_guide() const noexcept {
+  const JumpPoint* sight = in_sight_.data();
+  while (!leads_to(at_, *sight)) {
+    ++sight;
+  }
+  return *sight;
+}
+
+// Takes steps as long as nothing can come into sight or get out of it.
+void PathWalk::stride(const TieBreak& rule) noexcept {
+  const JumpPoint& guide = find_guide();
+  Choices choices{rule, at_};
+  for (std::size_t i = 0; i < in_sight_count_; ++i) {
+    choices.add(Way{at_, in_sight_.data()[i].pixel});
+  }
+  choices.close(in_sight_count_);
+  if (choices.are_of(Way{at_, guide.pixel})) {
+    follow(guide, rule, choices);
+  } else {
+    choose(guide, choices);
+  }
+}
+
+// Where no directions lead anywhere but the guide's two.
+void PathWalk::follow(const JumpPoint& guide, const TieBreak& rule,
+                      const Choices& choices) noexcept {
+  Leg leg{*grid_, rule, at_, guide.pixel};
+  int straights = choices.times(leg.direction(true));
+  int diagonals = choices.times(leg.direction(false));
+  const bool is_alone = in_sight_count_ == 1;
+  std::int32_t left = left_;
+  PathPixel* path = path_.data() + path_count_;
+  PathPixel* const end = path_.data() + path_.size();
+  for (bool guided = true, spent = false; guided && !spent && path != end;) {
+    bool straight = leg.prefers_straight();
+    if (!leg.allows(straight)) {
+      // Another jump point in sight may allow it; the guide then guides no further.
+      guided = is_alone || !is_cheapest(leg.at(), leg.direction(straight), left);
+      straight = straight != guided;
+    }
+    left -= cost_of(leg.direction(straight));
+    spent = (straight ? --straights : --diagonals) == 0;
+    leg.take(straight);
+    *path++ = leg.at();
+  }
+  path_count_ = static_cast<std::size_t>(path - path_.data());
+  arrive(leg.at(), left);
+}
+
+// Where more directions lead somewhere. A step that follows the guide's way is on a cheapest path;
+// any other asks the map.
+void PathWalk::choose(const JumpPoint& guide, Choices& choices) noexcept {
+  Way way{at_, guide.pixel};
+  PathPixel at = at_;
+  std::int32_t left = left_;
+  for (bool guided = true; guided && path_count_ < path_.size() && !choices.spent();) {
+    for (choices.weigh(at);; choices.refuse()) {
+      const int direction = choices.best();
+      guided = direction == way.straight
+                   ? way.straights > 0
+                   : direction == way.diagonal && way.diagonals > 0 && way.straights == 0;
+      if (guided || is_cheapest(at, direction, left)) {
+        choices.take();
+        way.take(direction);
+        left -= cost_of(direction);
+        at = moved(at, direction, 1);
+        break;
+      }
+    }
+    path_.data()[path_count_++] = at;
+  }
+  arrive(at, left);
+}
+
+}  // namespace lodesman
