@@ -90,9 +90,9 @@ void BitLines::clear() noexcept {
       }
       at += std::size_t{1} << stride_shift_;
     }
+    std::fill(crowded_.data() + taken.lines.first, crowded_.data() + taken.lines.last + 3, 0);
   }
   taken_count_ = 0;
-  std::fill(crowded_.begin(), crowded_.end(), 0);
   std::fill(crowd_.begin(), crowd_.end(), 0);
 }
 
@@ -110,7 +110,6 @@ void BitLines::block_all() noexcept {
 void BitLines::block(int line, int count, const std::int32_t* first,
                      const std::int32_t* last) noexcept {
   const LineSpan* const outlines = outlines_.data() + line;
-  std::uint64_t* const crowded = crowded_.data() + line + 1;
   std::uint64_t* words = line_of(line);
   const std::size_t stride = std::size_t{1} << stride_shift_;
   for (int i = 0; i < count; ++i, words += stride) {
@@ -128,7 +127,6 @@ void BitLines::block(int line, int count, const std::int32_t* first,
     for (int word = first_word + 1; word < last_word; ++word) {
       words[word] = 0;
     }
-    crowded[i] |= words_round(span);
   }
 }
 
@@ -146,9 +144,13 @@ void BitLines::announce(LineSpan lines, LineSpan places) noexcept {
     last = {{std::min(last.lines.first, lines.first), std::max(last.lines.last, lines.last)},
             {std::min(last.words.first, words.first), std::max(last.words.last, words.last)}};
   }
+  const std::uint64_t felt_words = words_round(places);
+  for (int line = lines.first; line <= lines.last; ++line) {
+    crowded_.data()[line + 1] |= felt_words;
+  }
   // A corner is felt one line and one place beside it.
   const LineSpan felt{std::max(lines.first - 1, 0), std::min(lines.last + 1, lines_ - 1)};
-  for (std::uint64_t rest = words_round(places); rest != 0; rest &= rest - 1) {
+  for (std::uint64_t rest = felt_words; rest != 0; rest &= rest - 1) {
     const auto word = static_cast<std::size_t>(std::countr_zero(rest));
     if (word < static_cast<std::size_t>(used_words_)) {
       set_lines(crowd_.data() + word * crowd_words_, felt);

@@ -41,15 +41,7 @@ class BitLines {
   // from first[i] to last[i].
   void block(int line, int count, const std::int32_t* first, const std::int32_t* last) noexcept;
   // Of one word of a line, keeps free only what is free in `free`. As for block().
-  void keep(int line, int word, std::uint64_t free) noexcept {
-    std::uint64_t& own = line_of(line)[word];
-    if ((own & ~free) != 0) {
-      own &= free;
-      const int end = word * 64 + 63;
-      crowded_[static_cast<std::size_t>(line) + 1] |=
-          words_round({word * 64, end < length_ ? end : length_ - 1});
-    }
-  }
+  void keep(int line, int word, std::uint64_t free) noexcept { line_of(line)[word] &= free; }
   // To be called before block() or keep(): all that they take away lies in these lines and places.
   void announce(LineSpan lines, LineSpan places) noexcept;
 

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/bench/measure.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <string>
+
+#include "low_level/path/path_search.h"
+#include "tests/bench/boost_a_star.h"
+#include "tests/bench/reference_a_star.h"
+
+namespace lodesman::bench {
+namespace {
+
+using testing::FrameKind;
+using testing::FrameMaker;
+using testing::RandomFrame;
+
+// Short work is timed so often for each time that long work is.
+constexpr int kShortTurns = 9;
+
+class Bench {
+ public:
+  explicit Bench(const FanShape& fan)
+      : grid_{fan}, search_{Geometry::k4, {}, fan}, reference_{fan}, boost_{fan} {}
+
+  [[nodiscard]] FrameTimes time(const RandomFrame& frame, const Workload& workload) {
+    for (std::vector<double>& times : us_) {
+      times.clear();
+    }
+    for (int i = 0; i < workload.repetitions; ++i) {
+      take_turns(frame, workload.with_others);
+    }
+    FrameTimes result{frame.kind, {}};
+    for (std::size_t i = 0; i < kColumns; ++i) {
+      std::sort(us_[i].begin(), us_[i].end());
+      result.us[i] = us_[i].empty() ? 0.0 : us_[i][us_[i].size() / 2];
+    }
+    return result;
+  }
+
+ private:
+  template <class Work>
+  void time(Column column, Work work) {
+    const auto began = std::chrono::steady_clock::now();
+    work();
+    const auto ended = std::chrono::steady_clock::now();
+    us_[static_cast<std::size_t>(column)].push_back(
+        std::chrono::duration<double, std::micro>{ended - began}.count());
+  }
+
+  void take_turns(const RandomFrame& frame, bool with_others) {
+    SearchResult ours;
+    for (int i = 0; i < kShortTurns; ++i) {
+      time(Column::kStep, [&] {
+        frame.draw(grid_);
+        ours = search_.search(grid_, frame.start, frame.goal);
+      });
+    }
+    for (int i = 0; i < kShortTurns; ++i) {
+      time(Column::kSearch, [&] { ours = search_.search(grid_, frame.start, frame.goal); });
+    }
+    for (int i = 0; i < kShortTurns; ++i) {
+      time(Column::kCopy, [&] { copy_bitmap(); });
+    }
+    if (with_others) {
+      SearchResult theirs;
+      time(Column::kReference, [&] { theirs = reference_.search(grid_, frame.start, frame.goal); });
+      require_same(ours, theirs, "reference A*");
+      time(Column::kBoost, [&] { theirs = boost_.search(grid_, frame.start, frame.goal); });
+      require_same(ours, theirs, "Boost A*");
+    }
+  }
+
+  void copy_bitmap() {
+    const BitLines& rows = grid_.rows();
+    const auto stride = static_cast<std::size_t>(rows.words(1) - rows.words(0));
+    copy_.resize(stride * static_cast<std::size_t>(rows.lines()));
+    std::copy_n(rows.words(0), copy_.size(), copy_.data());
+    sink_ = copy_[copy_.size() / 2];
+  }
+
+  static void require_same(const SearchResult& ours, const SearchResult& theirs,
+                           const std::string& name) {
+    if (ours.reason != theirs.reason || ours.cost_10_14 != theirs.cost_10_14) {
+      throw std::runtime_error(name + " disagrees: " + std::to_string(theirs.cost_10_14) +
+                               " instead of " + std::to_string(ours.cost_10_14));
+    }
+  }
+
+  PassableGrid grid_;
+  PathSearch search_;
+  ReferenceAStar reference_;
+  BoostAStar boost_;
+  std::vector<std::uint64_t> copy_;
+  volatile std::uint64_t sink_ = 0;
+  std::array<std::vector<double>, kColumns> us_;
+};
+
+}  // namespace
+
+std::vector<FrameTimes> measure(const Workload& workload) {
+  std::vector<FrameKind> kinds = workload.kinds;
+  for (std::size_t i = 0; workload.kinds.empty() && i < testing::kFrameKindNames.size(); ++i) {
+    kinds.push_back(static_cast<FrameKind>(i));
+  }
+  FrameMaker frames{workload.seed, workload.fan, workload.times};
+  Bench bench{workload.fan};
+  std::vector<FrameTimes> all;
+  for (int i = 0; i < workload.frames; ++i) {
+    for (const FrameKind kind : kinds) {
+      all.push_back(bench.time(frames.make(kind), workload));
+    }
+  }
+  return all;
+}
+
+}  // namespace lodesman::bench
