@@ -35,6 +35,7 @@ BitLines::BitLines(int length, std::span<const LineSpan> outlines)
   words_ = outline_words_;
   crowded_.resize(outlines.size() + 2);
   crowd_.resize(static_cast<std::size_t>(used_words_) * crowd_words_);
+  far_crowd_ = crowd_;
   ragged_up_ = crowd_;
   ragged_down_ = crowd_;
   for (int line = 0; line < lines_; ++line) {
@@ -94,6 +95,7 @@ void BitLines::clear() noexcept {
   }
   taken_count_ = 0;
   std::fill(crowd_.begin(), crowd_.end(), 0);
+  std::fill(far_crowd_.begin(), far_crowd_.end(), 0);
 }
 
 void BitLines::block_all() noexcept {
@@ -130,7 +132,7 @@ void BitLines::block(int line, int count, const std::int32_t* first,
   }
 }
 
-void BitLines::announce(LineSpan lines, LineSpan places) noexcept {
+void BitLines::announce(LineSpan lines, LineSpan places, bool round) noexcept {
   lines = {std::max(lines.first, 0), std::min(lines.last, lines_ - 1)};
   places = {std::max(places.first, 0), std::min(places.last, length_ - 1)};
   if (lines.first > lines.last || places.first > places.last) {
@@ -150,10 +152,30 @@ void BitLines::announce(LineSpan lines, LineSpan places) noexcept {
   }
   // A corner is felt one line and one place beside it.
   const LineSpan felt{std::max(lines.first - 1, 0), std::min(lines.last + 1, lines_ - 1)};
-  for (std::uint64_t rest = felt_words; rest != 0; rest &= rest - 1) {
-    const auto word = static_cast<std::size_t>(std::countr_zero(rest));
-    if (word < static_cast<std::size_t>(used_words_)) {
-      set_lines(crowd_.data() + word * crowd_words_, felt);
+  set_lines_in(crowd_, felt_words, felt);
+  if (!round) {
+    set_lines_in(far_crowd_, felt_words, felt);
+  }
+}
+
+void BitLines::end_round(LineSpan lines, LineSpan places) noexcept {
+  places = {std::max(places.first, 0), std::min(places.last, length_ - 1)};
+  if (lines.first > lines.last || places.first > places.last) {
+    return;
+  }
+  for (const int line : {lines.first - 1, lines.last + 1}) {
+    if (line >= 0 && line < lines_) {
+      set_lines_in(far_crowd_, words_round(places), {line, line});
+    }
+  }
+}
+
+void BitLines::set_lines_in(std::vector<std::uint64_t>& crowd, std::uint64_t words,
+                            LineSpan lines) noexcept {
+  for (; words != 0; words &= words - 1) {
+    const int word = std::countr_zero(words);
+    if (word < used_words_) {
+      set_lines(crowd.data() + static_cast<std::size_t>(word) * crowd_words_, lines);
     }
   }
 }

@@ -43,7 +43,11 @@ class BitLines {
   // Of one word of a line, keeps free only what is free in `free`. As for block().
   void keep(int line, int word, std::uint64_t free) noexcept { line_of(line)[word] &= free; }
   // To be called before block() or keep(): all that they take away lies in these lines and places.
-  void announce(LineSpan lines, LineSpan places) noexcept;
+  // Of a shape that is `round`, also say where it ends, afterwards.
+  void announce(LineSpan lines, LineSpan places, bool round = false) noexcept;
+  // A shape is round if the spans of neighbouring lines touch, if only at a corner. Nothing that
+  // comes along a line from outside can turn at it but just past its first and its last line.
+  void end_round(LineSpan lines, LineSpan places) noexcept;
 
   [[nodiscard]] int lines() const noexcept { return lines_; }
   [[nodiscard]] int length() const noexcept { return length_; }
@@ -77,6 +81,11 @@ class BitLines {
   [[nodiscard]] const std::uint64_t* crowd(int word) const noexcept {
     return crowd_.data() + static_cast<std::size_t>(word) * crowd_words_;
   }
+  // The lines where a run that comes from outside of what is in the word may meet more than its
+  // end.
+  [[nodiscard]] const std::uint64_t* far_crowd(int word) const noexcept {
+    return far_crowd_.data() + static_cast<std::size_t>(word) * crowd_words_;
+  }
   // The lines where a run that starts in word `word`, or one word on, may turn at the outline
   // itself: lines whose neighbours begin later than they do.
   template <int kWay>
@@ -108,6 +117,8 @@ class BitLines {
   template <int kWay>
   [[nodiscard]] std::uint64_t stops(const std::uint64_t* word) const noexcept;
   void find_ragged_ends();
+  void set_lines_in(std::vector<std::uint64_t>& crowd, std::uint64_t words,
+                    LineSpan lines) noexcept;
 
   int lines_;
   int length_;
@@ -122,6 +133,7 @@ class BitLines {
   std::vector<std::uint64_t> words_;
   std::vector<std::uint64_t> crowded_;  // a mask of words a line, with one line more on each side
   std::vector<std::uint64_t> crowd_;    // the same the other way round: a mask of lines a word
+  std::vector<std::uint64_t> far_crowd_;
   std::vector<std::uint64_t> ragged_up_;
   std::vector<std::uint64_t> ragged_down_;
   // What clear() must give back: the lines and, as a span of words, the places announced.

@@ -74,6 +74,7 @@ class BucketQueue {
 
  private:
   static constexpr std::uint32_t kBits = 64;
+  static constexpr std::uint64_t kAll = ~std::uint64_t{0};
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
   struct Entry {
     Item item;
@@ -102,19 +103,17 @@ class BucketQueue {
       found = bucket + static_cast<std::uint32_t>(std::countr_zero(rest));
       return true;
     }
-    const auto count = static_cast<std::uint32_t>(filled_words_.size());
+    const auto groups = static_cast<std::uint32_t>(filled_words_.size());
     const std::uint32_t home = word / kBits;
-    std::uint64_t candidates = filled_words_.data()[home] & (~std::uint64_t{1} << (word % kBits));
-    for (std::uint32_t i = 0; i <= count; ++i) {
-      if (candidates != 0) {
-        const std::uint32_t group = home + i < count ? home + i : home + i - count;
-        const std::uint32_t w =
-            group * kBits + static_cast<std::uint32_t>(std::countr_zero(candidates));
-        found = w * kBits + static_cast<std::uint32_t>(std::countr_zero(filled_.data()[w]));
+    for (std::uint32_t i = 0; i <= groups; ++i) {
+      const std::uint32_t group = home + i < groups ? home + i : home + i - groups;
+      const std::uint64_t later = i == 0 ? ~std::uint64_t{1} << (word % kBits) : kAll;
+      if (const std::uint64_t filled = filled_words_.data()[group] & later; filled != 0) {
+        const std::uint32_t first =
+            group * kBits + static_cast<std::uint32_t>(std::countr_zero(filled));
+        found = first * kBits + static_cast<std::uint32_t>(std::countr_zero(filled_.data()[first]));
         return true;
       }
-      const std::uint32_t next = home + i + 1 < count ? home + i + 1 : home + i + 1 - count;
-      candidates = filled_words_.data()[next];
     }
     return false;
   }

@@ -81,12 +81,12 @@ struct Batch {
       doubt.data()[at] = discriminant - flat;
     }
     // Brought to within the line and its surroundings, and then above zero, where a conversion
-    // to int rounds down.
+    // to int rounds down. What is not a number becomes the lower bound.
     const double most = length + 8.5;
     for (int i = 0; i < count; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      const double from = std::min(std::max(low.data()[at] + 4.0, 1.5), most);
-      const double to = std::min(std::max(high.data()[at] + 4.0, 1.5), most);
+      const double from = std::min(std::max(1.5, low.data()[at] + 4.0), most);
+      const double to = std::min(std::max(1.5, high.data()[at] + 4.0), most);
       const int below_from = static_cast<int>(from);
       const int below_to = static_cast<int>(to);
       // The distance of both from the nearest whole number, less kUnsure.
@@ -97,6 +97,35 @@ struct Batch {
       doubt.data()[at] = std::min(doubt.data()[at], std::min(sure_from, sure_to));
     }
   }
+};
+
+// Whether the spans of neighbouring lines touch, if only at a corner, and none between is empty.
+class Touching {
+ public:
+  void look(int line, int count, const int* first, const int* last) noexcept {
+    for (int i = 0; i < count; ++i) {
+      if (first[i] > last[i]) {
+        continue;
+      }
+      if (lines_.last >= lines_.first) {
+        all_ =
+            all_ && lines_.last == line + i - 1 && first[i] <= last_ + 1 && first_ <= last[i] + 1;
+        lines_.last = line + i;
+      } else {
+        lines_ = {line + i, line + i};
+      }
+      first_ = first[i];
+      last_ = last[i];
+    }
+  }
+  [[nodiscard]] bool all() const noexcept { return all_; }
+  [[nodiscard]] LineSpan lines() const noexcept { return lines_; }
+
+ private:
+  bool all_ = true;
+  LineSpan lines_{};
+  int first_ = 0;
+  int last_ = 0;
 };
 
 template <class Contains>
@@ -112,8 +141,9 @@ void draw(const Conic& conic, BitLines& lines, Contains contains) noexcept {
   if (all.first > all.last || places.first > places.last) {
     return;
   }
-  lines.announce(all, places);
+  lines.announce(all, places, conic.is_tame);
   Batch batch;
+  Touching touching;
   for (int line = all.first; line <= all.last; line += kBatch) {
     const int count = std::min(kBatch, all.last - line + 1);
     batch.work_out(conic, line, count, lines.length());
@@ -128,6 +158,15 @@ void draw(const Conic& conic, BitLines& lines, Contains contains) noexcept {
       }
     }
     lines.block(line, count, batch.first.data(), batch.last.data());
+    touching.look(line, count, batch.first.data(), batch.last.data());
+  }
+  if (!conic.is_tame) {
+    return;
+  }
+  if (touching.all()) {
+    lines.end_round(touching.lines(), places);
+  } else {
+    lines.announce(all, places);
   }
 }
 

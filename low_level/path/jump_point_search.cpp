@@ -59,27 +59,32 @@ std::uint64_t line_bit(int away) noexcept {
 JumpPointSearch::Outlook::Outlook(const BitLines& lines)
     : stride{lines.crowd_words()},
       up(static_cast<std::size_t>(lines.words_per_line()) * stride),
-      down(up.size()) {}
+      down(up.size()),
+      far(stride) {}
 
+// A run from a word, or one word on, meets all that is crowded there from within; what lies further
+// on it meets from outside.
 void JumpPointSearch::Outlook::look(const BitLines& lines) noexcept {
   const int words = lines.words_per_line();
-  const auto add = [this](std::uint64_t* own, const std::uint64_t* nearer,
-                          const std::uint64_t* crowd) {
-    for (std::size_t i = 0; i < stride; ++i) {
-      own[i] = nearer[i] | crowd[i];
+  const auto look_one_way = [&](std::vector<std::uint64_t>& to, int first, int way) {
+    std::fill(far.begin(), far.end(), 0);
+    for (int i = 0, word = first; i < words; ++i, word -= way) {
+      if (i >= 2) {
+        const std::uint64_t* const further = lines.far_crowd(word + 2 * way);
+        for (std::size_t line = 0; line < stride; ++line) {
+          far.data()[line] |= further[line];
+        }
+      }
+      const std::uint64_t* const own = lines.crowd(word);
+      const std::uint64_t* const next = lines.crowd(i >= 1 ? word + way : word);
+      std::uint64_t* const ahead = to.data() + static_cast<std::size_t>(word) * stride;
+      for (std::size_t line = 0; line < stride; ++line) {
+        ahead[line] = far.data()[line] | own[line] | next[line];
+      }
     }
   };
-  std::copy_n(lines.crowd(words - 1), stride,
-              up.data() + static_cast<std::size_t>(words - 1) * stride);
-  for (int word = words - 2; word >= 0; --word) {
-    std::uint64_t* const own = up.data() + static_cast<std::size_t>(word) * stride;
-    add(own, own + stride, lines.crowd(word));
-  }
-  std::copy_n(lines.crowd(0), stride, down.data());
-  for (int word = 1; word < words; ++word) {
-    std::uint64_t* const own = down.data() + static_cast<std::size_t>(word) * stride;
-    add(own, own - stride, lines.crowd(word));
-  }
+  look_one_way(up, words - 1, 1);
+  look_one_way(down, 0, -1);
 }
 
 JumpPointSearch::JumpPointSearch(const FanShape& fan, SearchLimits limits)

@@ -63,6 +63,7 @@ class JumpPointSearch {
     std::size_t stride;
     std::vector<std::uint64_t> up;
     std::vector<std::uint64_t> down;
+    std::vector<std::uint64_t> far;  // of use while looking
   };
   void begin(const PassableGrid& grid, PathPixel start, PathPixel goal) noexcept;
   [[nodiscard]] PathReason settle(PathPixel goal, std::uint32_t& expansions) noexcept;

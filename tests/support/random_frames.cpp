@@ -27,9 +27,11 @@ int FrameMaker::whole(int low, int high) {
   return std::uniform_int_distribution<int>{low, high}(random_);
 }
 
-EllipsePx FrameMaker::ellipse() {
+// Somewhere about the straight way to the goal.
+EllipsePx FrameMaker::ellipse(PathPixel goal) {
   const double range = number(80.0, 480.0) * scale_;
-  const double bearing = number(-1.0, 1.0);
+  const double ahead = std::atan2(goal.column - fan_.apex_column, fan_.apex_row - goal.row);
+  const double bearing = ahead + number(-0.35, 0.35) + number(-0.35, 0.35);
   const double shrink = scale_ / std::sqrt(times_);
   return EllipsePx::with_angle(
       {fan_.apex_column + range * std::sin(bearing), fan_.apex_row - range * std::cos(bearing)},
@@ -82,7 +84,7 @@ void FrameMaker::add_obstacles(RandomFrame& frame) {
   const PointPx way{goal.column - fan_.apex_column, goal.row - fan_.apex_row};
   const auto some = [&](int low, int high) {
     for (int i = whole(low, high) * times_; i > 0; --i) {
-      to.push_back(ellipse());
+      to.push_back(ellipse(frame.goal));
     }
   };
   switch (frame.kind) {

@@ -55,7 +55,7 @@ class FrameMaker {
  private:
   [[nodiscard]] double number(double low, double high);
   [[nodiscard]] int whole(int low, int high);
-  [[nodiscard]] EllipsePx ellipse();
+  [[nodiscard]] EllipsePx ellipse(PathPixel goal);
   void add_discs(std::vector<EllipsePx>& to, PointPx from, PointPx along, double radius);
   void add_arc(std::vector<EllipsePx>& to, PointPx centre, double radius, double from_rad,
                double to_rad);
