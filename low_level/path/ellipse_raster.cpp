@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
+#include <cstdint>
 
 #include "low_level/path/line_ends.h"
 
@@ -12,17 +12,15 @@ namespace lodesman {
 namespace {
 
 // An ellipse about a bitmap's lines: p runs along a line and q counts the lines, both from the
-// centre; inside where along * p^2 + 2 * mixed * p * q + ... <= 1. In p that is a quadratic whose
-// discriminant is along - (q / (a b))^2.
+// centre; inside where along * p^2 + 2 * mixed * p * q + across * q^2 <= 1.
 struct Conic {
   double centre_p;
   double centre_q;
-  double along;
-  double mixed;
-  double area;    // a * b
-  double height;  // of the ellipse, in lines, from its centre
-  double width;   // in places
-  bool is_tame;
+  double chord;   // half the width of the line through the centre, in places
+  double slope;   // by how much the middle moves a line
+  double height;  // from the centre to the last line
+  double width;   // from the centre to the last place
+  bool is_tame;   // neither large, small nor thin, so that float numbers are good enough
 };
 
 Conic conic_of(const EllipsePx& e, double cos_theta, double sin_theta, double centre_p,
@@ -31,140 +29,197 @@ Conic conic_of(const EllipsePx& e, double cos_theta, double sin_theta, double ce
   const double sin_a = sin_theta / e.a;
   const double cos_b = cos_theta / e.b;
   const double sin_b = sin_theta / e.b;
+  const double along = cos_a * cos_a + sin_b * sin_b;
+  const double across = sin_a * sin_a + cos_b * cos_b;
+  const double root = std::sqrt(along);
   Conic conic{};
   conic.centre_p = centre_p;
   conic.centre_q = centre_q;
-  conic.along = cos_a * cos_a + sin_b * sin_b;
-  conic.mixed = cos_a * sin_a - sin_b * cos_b;
-  conic.area = e.a * e.b;
-  conic.height = conic.area * std::sqrt(conic.along);
-  conic.width = conic.area * std::sqrt(sin_a * sin_a + cos_b * cos_b);
-  conic.is_tame = std::min(e.a, e.b) >= 0.5 && std::max(e.a, e.b) <= 5000.0 &&
-                  std::max(e.a, e.b) <= 100.0 * std::min(e.a, e.b) && std::abs(centre_p) <= 1e5 &&
-                  std::abs(centre_q) <= 1e5 &&
+  conic.chord = 1.0 / root;
+  conic.slope = (cos_a * sin_a - sin_b * cos_b) / along;
+  conic.height = e.a * e.b * root;
+  conic.width = e.a * e.b * std::sqrt(across);
+  const double longer = std::max(e.a, e.b);
+  conic.is_tame = std::min(e.a, e.b) >= 1.0 && longer <= 500.0 &&
+                  longer <= 10.0 * std::min(e.a, e.b) && std::abs(centre_p) <= 1e4 &&
+                  std::abs(centre_q) <= 1e4 &&
                   std::abs(cos_theta * cos_theta + sin_theta * sin_theta - 1.0) <= 1e-12;
   return conic;
 }
 
-// The two ends of a tame ellipse in a line are off by less than 1e-4 of a place by rounding, here
-// and in contains(), as long as the discriminant is not below kFlat of its largest value. An end
-// that lies no nearer than kUnsure to a place's centre is therefore on the side that it seems.
-constexpr double kUnsure = 1e-3;
-constexpr double kFlat = 1e-4;
+// Where a line about begins and ends.
+struct Ends {
+  double left;  // under the root: 1 at the centre, 0 at the first and the last line
+  double low;
+  double high;
 
-// Lines are worked out so many at a time, in loops that compilers turn into vectors.
-constexpr int kBatch = 64;
-
-// Where the ellipse begins and ends in each line of a batch, as numbers and as places.
-struct Batch {
-  std::array<double, kBatch> low;
-  std::array<double, kBatch> high;
-  std::array<double, kBatch> doubt;  // below zero: the places may be wrong
-  std::array<int, kBatch> first;
-  std::array<int, kBatch> last;
-
-  void work_out(const Conic& conic, int first_line, int count, int length) noexcept {
-    const double per_area = 1.0 / conic.area;
-    const double per_along = 1.0 / conic.along;
-    const double slope = conic.mixed * per_along;
-    const double flat = kFlat * conic.along;
-    const double begin = first_line - conic.centre_q;
-    for (int i = 0; i < count; ++i) {
-      const double q = begin + i;
-      const double scaled = q * per_area;
-      const double discriminant = conic.along - scaled * scaled;
-      const double half = std::sqrt(std::max(discriminant, 0.0)) * per_along;
-      const double middle = conic.centre_p - slope * q;
-      const auto at = static_cast<std::size_t>(i);
-      low.data()[at] = middle - half;
-      high.data()[at] = middle + half;
-      doubt.data()[at] = discriminant - flat;
-    }
-    // Brought to within the line and its surroundings, and then above zero, where a conversion
-    // to int rounds down. What is not a number becomes the lower bound.
-    const double most = length + 8.5;
-    for (int i = 0; i < count; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const double from = std::min(std::max(1.5, low.data()[at] + 4.0), most);
-      const double to = std::min(std::max(1.5, high.data()[at] + 4.0), most);
-      const int below_from = static_cast<int>(from);
-      const int below_to = static_cast<int>(to);
-      // The distance of both from the nearest whole number, less kUnsure.
-      const double sure_from = 0.5 - kUnsure - std::abs(from - below_from - 0.5);
-      const double sure_to = 0.5 - kUnsure - std::abs(to - below_to - 0.5);
-      first.data()[at] = below_from - 3;
-      last.data()[at] = below_to - 4;
-      doubt.data()[at] = std::min(doubt.data()[at], std::min(sure_from, sure_to));
-    }
+  Ends(const Conic& conic, int line) noexcept {
+    const double q = line - conic.centre_q;
+    const double share = q / conic.height;
+    left = 1.0 - share * share;
+    const double half = conic.chord * std::sqrt(std::max(left, 0.0));
+    const double middle = conic.centre_p - conic.slope * q;
+    low = middle - half;
+    high = middle + half;
+  }
+  // Of a tame ellipse, rounding moves the ends by less than 1e-6 of a place unless next to nothing
+  // is left under the root: the numbers are below 1e4 and exact to 1e-12, and what magnifies their
+  // errors, here and in contains(), stays below 1e5.
+  [[nodiscard]] bool are_sure() const noexcept {
+    return left > 1e-4 && std::abs(low - std::round(low)) > 1e-3 &&
+           std::abs(high - std::round(high)) > 1e-3;
   }
 };
 
-// Whether the spans of neighbouring lines touch, if only at a corner, and none between is empty.
-class Touching {
- public:
-  void look(int line, int count, const int* first, const int* last) noexcept {
+// In float numbers the ends of a tame ellipse are off by less than half of kUnsure, as long as the
+// line is not among the first and last, where less than kFlat is left under the root. (The root
+// magnifies an error of q by the ellipse's proportions over the root of kFlat, by 80 at most; q and
+// all places are below 1600 and so exact to 2^-14.) An end that lies no nearer than kUnsure to a
+// place's centre is therefore on the side that it seems.
+constexpr float kUnsure = 1.0F / 256.0F;
+constexpr float kFlat = 1.0F / 64.0F;
+
+// Lines are worked out so many at a time, in a loop that compilers turn into vectors.
+constexpr int kBatch = 64;
+
+struct Batch {
+  std::array<std::int32_t, kBatch> first;
+  std::array<std::int32_t, kBatch> last;
+  std::array<float, kBatch> surety;  // below zero: the places may be wrong
+
+  // Of a tame ellipse.
+  void work_out(const Conic& conic, int first_line, int count) noexcept {
+    // Places are counted from one that lies before all of the ellipse: a conversion to int then
+    // rounds down.
+    constexpr int kBefore = 1024;
+    const int base = static_cast<int>(std::floor(conic.centre_p)) - kBefore;
+    const auto centre = static_cast<float>(conic.centre_p - base);
+    const auto begin = static_cast<float>(first_line - conic.centre_q);
+    const auto per_height = static_cast<float>(1.0 / conic.height);
+    const auto chord = static_cast<float>(conic.chord);
+    const auto slope = static_cast<float>(conic.slope);
     for (int i = 0; i < count; ++i) {
-      if (first[i] > last[i]) {
-        continue;
-      }
-      if (lines_.last >= lines_.first) {
-        all_ =
-            all_ && lines_.last == line + i - 1 && first[i] <= last_ + 1 && first_ <= last[i] + 1;
-        lines_.last = line + i;
-      } else {
-        lines_ = {line + i, line + i};
-      }
-      first_ = first[i];
-      last_ = last[i];
+      const float q = begin + static_cast<float>(i);
+      const float share = q * per_height;
+      const float left = 1.0F - share * share;
+      const float half = chord * std::sqrt(std::max(left, 0.0F));
+      const float middle = centre - slope * q;
+      const float low = middle - half;
+      const float high = middle + half;
+      const auto below_low = static_cast<std::int32_t>(low);
+      const auto below_high = static_cast<std::int32_t>(high);
+      const float off_low = std::abs(low - static_cast<float>(below_low) - 0.5F);
+      const float off_high = std::abs(high - static_cast<float>(below_high) - 0.5F);
+      first.data()[i] = below_low + 1 + base;
+      last.data()[i] = below_high + base;
+      surety.data()[i] = std::min(0.5F - kUnsure - std::max(off_low, off_high), left - kFlat);
     }
   }
-  [[nodiscard]] bool all() const noexcept { return all_; }
+
+  // Whether all of the lines have a place and touch their neighbours, if only at a corner.
+  [[nodiscard]] bool touch(int from, int to) const noexcept {
+    std::int32_t gap = last.data()[from] - first.data()[from];
+    for (int i = from + 1; i < to; ++i) {
+      gap |= (last.data()[i] - first.data()[i]) | (last.data()[i - 1] + 1 - first.data()[i]) |
+             (last.data()[i] + 1 - first.data()[i - 1]);
+    }
+    return gap >= 0;
+  }
+};
+
+// What makes a shape round (BitLines::announce), gathered batch by batch.
+class Roundness {
+ public:
+  void add(const Batch& batch, int line, int count) noexcept {
+    int from = 0;
+    int to = count;
+    while (from < to && batch.first.data()[from] > batch.last.data()[from]) {
+      ++from;
+    }
+    while (from < to && batch.first.data()[to - 1] > batch.last.data()[to - 1]) {
+      --to;
+    }
+    if (from == to) {
+      return;
+    }
+    round_ = round_ && batch.touch(from, to);
+    if (lines_.first <= lines_.last) {
+      round_ = round_ && lines_.last == line + from - 1 &&
+               batch.first.data()[from] <= end_.last + 1 &&
+               end_.first <= batch.last.data()[from] + 1;
+    } else {
+      lines_.first = line + from;
+    }
+    lines_.last = line + to - 1;
+    end_ = {batch.first.data()[to - 1], batch.last.data()[to - 1]};
+  }
+  [[nodiscard]] bool is_round() const noexcept { return round_; }
   [[nodiscard]] LineSpan lines() const noexcept { return lines_; }
 
  private:
-  bool all_ = true;
+  bool round_ = true;
   LineSpan lines_{};
-  int first_ = 0;
-  int last_ = 0;
+  LineSpan end_{};  // the places of the last line
 };
 
 template <class Contains>
-void draw(const Conic& conic, BitLines& lines, Contains contains) noexcept {
-  const double slack = conic.is_tame ? kUnsure : 2.0;
-  const LineSpan all{first_from(conic.centre_q - conic.height - slack, 0, lines.lines()),
-                     last_from(conic.centre_q + conic.height + slack, 0, lines.lines()) - 1};
-  LineSpan places{0, lines.length() - 1};
-  if (conic.is_tame) {
-    places =
-        lines_between(conic.centre_p - conic.width, conic.centre_p + conic.width, lines.length());
+void draw_wild(const Conic& conic, BitLines& lines, Contains contains) noexcept {
+  const LineSpan all =
+      lines_between(conic.centre_q - conic.height, conic.centre_q + conic.height, lines.lines());
+  lines.announce(all, {0, lines.length() - 1});
+  for (int line = all.first; line <= all.last; ++line) {
+    const Ends ends{conic, line};
+    const LineSpan span = exact_span(lines.outline(line), ends.low, ends.high,
+                                     [&](int place) { return contains(place, line); });
+    lines.block(line, span);
   }
+}
+
+// Of a line of a tame ellipse of which float numbers do not tell enough.
+template <class Contains>
+LineSpan sure_span(const Conic& conic, int line, int length, Contains contains) noexcept {
+  const Ends ends{conic, line};
+  if (ends.are_sure()) {
+    return {static_cast<int>(std::ceil(ends.low)), static_cast<int>(std::floor(ends.high))};
+  }
+  return exact_span({-length, 2 * length}, ends.low, ends.high,
+                    [&](int place) { return contains(place, line); });
+}
+
+template <class Contains>
+void draw(const Conic& conic, BitLines& lines, Contains contains) noexcept {
+  if (!conic.is_tame) {
+    draw_wild(conic, lines, contains);
+    return;
+  }
+  const double reach = conic.height + 0.01;  // rounding is far less
+  const LineSpan all{first_from(conic.centre_q - reach, 0, lines.lines()),
+                     last_from(conic.centre_q + reach, 0, lines.lines()) - 1};
+  const LineSpan places =
+      lines_between(conic.centre_p - conic.width, conic.centre_p + conic.width, lines.length());
   if (all.first > all.last || places.first > places.last) {
     return;
   }
-  lines.announce(all, places, conic.is_tame);
+  lines.announce(all, places, true);
   Batch batch;
-  Touching touching;
+  Roundness roundness;
   for (int line = all.first; line <= all.last; line += kBatch) {
     const int count = std::min(kBatch, all.last - line + 1);
-    batch.work_out(conic, line, count, lines.length());
+    batch.work_out(conic, line, count);
     for (int i = 0; i < count; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      if (!conic.is_tame || batch.doubt.data()[at] < 0.0) {
-        const LineSpan span =
-            exact_span(lines.outline(line + i), batch.low.data()[at], batch.high.data()[at],
-                       [&](int place) { return contains(place, line + i); });
-        batch.first.data()[at] = span.first;
-        batch.last.data()[at] = span.last;
+      if (batch.surety.data()[i] < 0.0F) {
+        const Ends ends{conic, line + i};
+        const LineSpan span = exact_span({-lines.length(), 2 * lines.length()}, ends.low, ends.high,
+                                         [&](int place) { return contains(place, line + i); });
+        batch.first.data()[i] = span.first;
+        batch.last.data()[i] = span.last;
       }
     }
     lines.block(line, count, batch.first.data(), batch.last.data());
-    touching.look(line, count, batch.first.data(), batch.last.data());
+    roundness.add(batch, line, count);
   }
-  if (!conic.is_tame) {
-    return;
-  }
-  if (touching.all()) {
-    lines.end_round(touching.lines(), places);
+  if (roundness.is_round()) {
+    lines.end_round(roundness.lines(), places);
   } else {
     lines.announce(all, places);
   }

@@ -71,7 +71,8 @@ class Bench {
     time(Column::kCopy, kShortTurns, [&] { copy_bitmap(); });
     if (with_others) {
       SearchResult theirs;
-      time(Column::kReference, [&] { theirs = reference_.search(grid_, frame.start, frame.goal); });
+      time(Column::kReference, 1,
+           [&] { theirs = reference_.search(grid_, frame.start, frame.goal); });
       require_same(ours, theirs, "reference A*");
       time(Column::kBoost, 1, [&] { theirs = boost_.search(grid_, frame.start, frame.goal); });
       require_same(ours, theirs, "Boost A*");
