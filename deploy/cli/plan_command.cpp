@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "deploy/cli/common_options.h"
+#include "deploy/cli/tools/any_angle.h"
 #include "deploy/cli/tools/file_check.h"
 #include "deploy/cli/tools/plan_answers.h"
 #include "mid_level/base/clock.h"
@@ -25,6 +26,7 @@ struct PlanOptions {
   std::string costs = "paper";
   int geometry = 4;
   int repeat = 1;
+  bool any_angle = false;
 };
 
 // How many answers are worth a line each to a person.
@@ -107,8 +109,13 @@ void answer_all(const PlanOptions& options, const std::vector<Query>& queries, A
   if (!options.frames.empty()) {
     const std::vector<FrameQuery> frames = read_frames(options.frames);
     FramePlanner planner{costs, options.geometry == 8 ? Geometry::k8 : Geometry::k4};
+    AnyAnglePlanner any_angle;
     answer_all(options, frames, [&](const FrameQuery& frame, std::size_t /*number*/) {
-      return planner.answer(frame, options.repeat);
+      PlanAnswer answer = planner.answer(frame, options.repeat);
+      if (options.any_angle) {
+        answer.any_angle = any_angle.answer(frame, options.repeat).to_json();
+      }
+      return answer;
     });
     return kExitDone;
   }
@@ -150,6 +157,10 @@ void add_options(CLI::App& command, PlanOptions& options) {
       ->check(CLI::Range(1, 10000))
       ->type_name("N")
       ->capture_default_str();
+  command
+      .add_flag("--any-angle", options.any_angle,
+                "Also the shortest path of any direction, from the shapes; in the JSON lines")
+      ->needs(frames);
   add_common_options(command, options.common);
 }
 

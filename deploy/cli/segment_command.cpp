@@ -140,7 +140,10 @@ Json FrameReader::read(const fs::path& file) {
 }
 
 void FrameReader::plan(Json& frame) {
-  const PathRequest request{ping_->number, ping_->number, options_.plan_m[0], options_.plan_m[1]};
+  PathRequest request;
+  request.id = request.frame = ping_->number;
+  request.goal_x_m = options_.plan_m[0];
+  request.goal_y_m = options_.plan_m[1];
   path_finder_.find_path(*obstacles_, request, options_.range_m, *path_);
   frame["path_m"] = Json::array();
   const SonarView view{options_.range_m};

@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "deploy/cli/common_options.h"
+#include "deploy/cli/report/plan_story.h"
 #include "deploy/cli/report/plots.h"
 #include "deploy/cli/report/run_files.h"
 #include "deploy/cli/report/side_flips.h"
@@ -24,6 +25,7 @@
 #include "deploy/cli/run/simulated_boat.h"
 #include "deploy/cli/run/view_saver.h"
 #include "deploy/cli/version.h"
+#include "hal_sim/campaign/encounter.h"
 
 namespace lodesman::cli {
 namespace {
@@ -46,7 +48,7 @@ volatile std::sig_atomic_t g_interrupted = 0;
 
 [[nodiscard]] fs::path run_directory(const SimOptions& options, const Scenario& scenario) {
   const std::time_t now = std::time(nullptr);
-  const fs::path directory =
+  fs::path directory =
       options.out.empty()
           ? fs::path{"runs"} / fmt::format("{:%Y%m%dT%H%M%SZ}-{}", fmt::gmtime(now), scenario.name)
           : fs::path{options.out};
@@ -117,14 +119,21 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
 [[nodiscard]] RunRecord run(const SimOptions& options, const TomlDocument& configuration,
                             const Scenario& scenario, const fs::path& directory) {
   std::optional<ViewSaver> views;
-  std::function<void(const Blackboard&, const Plan&, const SonarPath*, const PlanRecord&)> on_plan;
   if (!options.no_images) {
     views.emplace(directory, simulation_settings(configuration).sonar_view_period,
                   scenario.sonar.range_m);
-    on_plan = [&](const Blackboard& board, const Plan& plan, const SonarPath* path,
-                  const PlanRecord& record) { views->save(board, plan, path, record); };
   }
   ProgressLine line{scenario, options.common.quiet};
+  PlanStory story;
+  const auto on_plan = [&](const Blackboard& board, const Plan& plan, const SonarPath* path,
+                           const PlanRecord& record) {
+    if (views) {
+      views->save(board, plan, path, record);
+    }
+    if (const std::string news = story.news(record); !news.empty()) {
+      line.say(news);
+    }
+  };
   const std::function<bool()> interrupted = [] { return g_interrupted != 0; };
   const std::function<void(const RunProgress&)> show = [&](const RunProgress& progress) {
     line.show(progress);
@@ -156,12 +165,13 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
     throw StartupError("--time-limit: must be a number from 1 to 1000000");
   }
   const TomlDocument configuration = load_configuration(options.profile, options.common);
-  const fs::path file = scenario_file(options.scenario);
-  Scenario scenario = load_named_scenario(file.string());
+  Scenario scenario = load_named_scenario(options.scenario);
   scenario.seed = options.seed.value_or(scenario.seed);
   scenario.time_limit_s = options.time_limit_s.value_or(scenario.time_limit_s);
   require_devices(configuration, scenario);
-  const std::string scenario_text = read_text(file);  // before it may be overwritten
+  const auto number = encounter_number(options.scenario);
+  const std::string scenario_text =  // before it may be overwritten
+      number ? encounter_scenario(*number) : read_text(scenario_file(options.scenario));
   // Nothing is refused any more: now there may be files.
   const fs::path directory = run_directory(options, scenario);
   write_text(directory / "config.toml", configuration.to_text());

@@ -12,102 +12,9 @@ namespace {
 
 using Vec = Eigen::Vector2d;
 
-constexpr int kNewtonSteps_max = 100;
 constexpr int kCoarseSamples = 64;
 constexpr int kGoldenSteps = 48;
 constexpr double kGoldenRatio = 0.6180339887498949;
-
-// ---- A point and an ellipse in its own frame: first semi-axis along y, second along x.
-
-// The nearest point of an ellipse (x/a)^2 + (y/b)^2 = 1, a >= b, to a point of the first quadrant
-// is (a^2 x / (s + a^2 - b^2), b^2 y / s), where s > 0 solves
-// (a x / (s + a^2 - b^2))^2 + (b y / s)^2 = 1. The left side falls and is convex in s, so that
-// Newton's steps from the left never overshoot.
-[[nodiscard]] Vec nearest_on_ellipse(double a, double b, const Vec& p) noexcept {
-  const double gap = (a - b) * (a + b);
-  // On the long axis between the evolute's cusps the equation has no root with s > 0.
-  if (p.y() <= 0.0) {
-    if (a * p.x() < gap) {
-      const double x = a * a * p.x() / gap;
-      const double share = x / a;
-      return {x, b * std::sqrt(std::max(0.0, 1.0 - share * share))};
-    }
-    return {a, 0.0};
-  }
-  // At each of these one of the two terms is 1 already: both lie left of the root.
-  double s = std::max(b * p.y(), a * p.x() - gap);
-  for (int i = 0; i < kNewtonSteps_max; ++i) {
-    const double first = a * p.x() / (s + gap);
-    const double second = b * p.y() / s;
-    const double excess = first * first + second * second - 1.0;
-    const double slope = -2.0 * (first * first / (s + gap) + second * second / s);
-    const double step = -excess / slope;
-    s += std::max(step, 0.0);
-    if (step <= 1e-15 * s) {
-      break;
-    }
-  }
-  return {a * a * p.x() / (s + gap), b * b * p.y() / s};
-}
-
-// From p to the ellipse with these semi-axes along x and y, negative inside.
-[[nodiscard]] double ellipse_distance(double along_x, double along_y, const Vec& p) noexcept {
-  Vec q = p.cwiseAbs();
-  double a = along_x;
-  double b = along_y;
-  if (a < b) {
-    std::swap(a, b);
-    std::swap(q.x(), q.y());
-  }
-  const double distance = (q - nearest_on_ellipse(a, b, q)).norm();
-  const double x = q.x() / a;
-  const double y = q.y() / b;
-  return x * x + y * y < 1.0 ? -distance : distance;
-}
-
-// ---- Walls
-
-[[nodiscard]] Vec vertex_of(const Obstacle& wall, std::uint32_t i) noexcept {
-  return {wall.vertices[i].x_m, wall.vertices[i].y_m};
-}
-
-[[nodiscard]] double segment_distance(const Vec& a, const Vec& b, const Vec& p) noexcept {
-  const Vec way = b - a;
-  const double length2 = way.squaredNorm();
-  const double share = length2 > 0.0 ? std::clamp(way.dot(p - a) / length2, 0.0, 1.0) : 0.0;
-  return (p - (a + share * way)).norm();
-}
-
-// Calls visit(a, b) for each side: one fewer than vertices for a polyline.
-template <class Visit>
-void for_each_side(const Obstacle& wall, Visit visit) noexcept {
-  for (std::uint32_t i = 0; i + 1 < wall.vertex_count; ++i) {
-    visit(vertex_of(wall, i), vertex_of(wall, i + 1));
-  }
-  if (wall.shape == ObstacleShape::kPolygon && wall.vertex_count > 1) {
-    visit(vertex_of(wall, wall.vertex_count - 1), vertex_of(wall, 0));
-  }
-}
-
-// Even-odd: whether a ray from p crosses an odd number of sides.
-[[nodiscard]] bool encloses(const Obstacle& polygon, const Vec& p) noexcept {
-  bool inside = false;
-  for_each_side(polygon, [&](const Vec& a, const Vec& b) {
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) {
-      inside = !inside;
-    }
-  });
-  return inside;
-}
-
-[[nodiscard]] double wall_distance(const Obstacle& wall, const Vec& p) noexcept {
-  double nearest = std::numeric_limits<double>::infinity();
-  for_each_side(wall, [&](const Vec& a, const Vec& b) {
-    nearest = std::min(nearest, segment_distance(a, b, p));
-  });
-  return wall.shape == ObstacleShape::kPolygon && encloses(wall, p) ? -nearest : nearest;
-}
 
 // ---- The hull: a rectangle round the origin, half its size in `half`.
 
@@ -144,7 +51,7 @@ void for_each_side(const Obstacle& wall, Visit visit) noexcept {
   double nearest = std::min(rectangle_distance(half, a), rectangle_distance(half, b));
   for (const double x : {-half.x(), half.x()}) {
     for (const double y : {-half.y(), half.y()}) {
-      nearest = std::min(nearest, segment_distance(a, b, {x, y}));
+      nearest = std::min(nearest, segment_distance_m(a, b, {x, y}));
     }
   }
   return nearest;
@@ -197,7 +104,7 @@ template <class Function>
     return Vec{first.dot(p - centre) / first.squaredNorm(),
                second.dot(p - centre) / second.squaredNorm()};
   };
-  if (segment_distance(to_unit(middle.a), to_unit(middle.b), Vec::Zero()) <= 1.0) {
+  if (segment_distance_m(to_unit(middle.a), to_unit(middle.b), Vec::Zero()) <= 1.0) {
     return -middle.depth;
   }
   const auto on_edge = [&](double angle_rad) noexcept {
@@ -232,22 +139,7 @@ template <class Function>
              : nearest;
 }
 
-// Direction of an ellipse's first semi-axis.
-[[nodiscard]] Vec first_axis(double angle_rad) noexcept {
-  return {std::sin(angle_rad), std::cos(angle_rad)};
-}
-
 }  // namespace
-
-double edge_distance_m(const Obstacle& obstacle, const WorldPoint& p_W) noexcept {
-  if (obstacle.shape != ObstacleShape::kEllipse) {
-    return wall_distance(obstacle, p_W.xy_m);
-  }
-  const Vec offset = p_W.xy_m - Vec{obstacle.centre_x_m, obstacle.centre_y_m};
-  const Vec along = first_axis(obstacle.angle_rad);
-  const Vec in_axes{along.dot(offset), along.x() * offset.y() - along.y() * offset.x()};
-  return ellipse_distance(obstacle.semi_axis_first_m, obstacle.semi_axis_second_m, in_axes);
-}
 
 double hull_clearance_m(const Obstacle& obstacle, const VehiclePose& pose,
                         const HullSize& hull) noexcept {
@@ -259,14 +151,6 @@ double hull_clearance_m(const Obstacle& obstacle, const VehiclePose& pose,
   const Vec along = first_axis(pose.angle_to_vehicle_rad(obstacle.angle_rad));
   return ellipse_clearance(half, centre, obstacle.semi_axis_first_m * along,
                            obstacle.semi_axis_second_m * Vec{along.y(), -along.x()});
-}
-
-double edge_distance_bound_m(const Obstacle& obstacle, const WorldPoint& p_W) noexcept {
-  if (obstacle.shape != ObstacleShape::kEllipse) {
-    return -std::numeric_limits<double>::infinity();  // walls are quick anyway
-  }
-  const Vec offset = p_W.xy_m - Vec{obstacle.centre_x_m, obstacle.centre_y_m};
-  return offset.norm() - std::max(obstacle.semi_axis_first_m, obstacle.semi_axis_second_m);
 }
 
 }  // namespace lodesman

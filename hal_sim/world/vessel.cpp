@@ -132,6 +132,13 @@ Vessel::Vessel(const VesselParameters& parameters, const WaterConditions& water,
   state_.pose = start;
 }
 
+Vessel Vessel::under_way(const VesselParameters& parameters, const WaterConditions& water,
+                         const VesselState& state) noexcept {
+  Vessel vessel{parameters, water, state.pose};
+  vessel.state_ = state;
+  return vessel;
+}
+
 void Vessel::advance(double dt_s, ThrustCommand command) noexcept {
   if (!(dt_s > 0.0)) {
     return;

@@ -69,6 +69,10 @@ class Vessel {
  public:
   Vessel(const VesselParameters& parameters, const WaterConditions& water,
          const VehiclePose& start) noexcept;
+  // One that is under way already.
+  [[nodiscard]] static Vessel under_way(const VesselParameters& parameters,
+                                        const WaterConditions& water,
+                                        const VesselState& state) noexcept;
 
   // Moves on by dt_s, in equal parts of at most step_s_max.
   void advance(double dt_s, ThrustCommand thrust) noexcept;

@@ -51,7 +51,17 @@ std::optional<VehiclePose> PoseHistory::at(Time at) const noexcept {
   return std::nullopt;
 }
 
+Replanner::Replanner(const ReplannerOptions& options, std::uint64_t first_id)
+    : options_{options}, next_id_{first_id} {
+  if (options.pilot) {
+    pilot_.emplace(*options.pilot);
+  }
+}
+
 void Replanner::start(Time now) noexcept {
+  if (pilot_) {
+    pilot_->start();
+  }
   heard_ = now;
   pending_.reset();
   asked_.reset();
@@ -60,46 +70,86 @@ void Replanner::start(Time now) noexcept {
   plan_ = Plan{};
 }
 
-std::optional<PathRequest> Replanner::request(Time now, std::uint64_t frame, Time frame_captured,
-                                              const WorldPoint& goal,
-                                              const PoseHistory& poses) noexcept {
+bool Replanner::is_due(Time now, std::uint64_t frame) const noexcept {
   const bool due = !asked_ || now - *asked_ >= options_.replan_period;
-  if (pending_ || !due || frame == planned_frame_) {
-    return std::nullopt;
-  }
-  const auto pose = poses.at(frame_captured);
-  if (!pose) {
-    return std::nullopt;
-  }
-  const VehiclePoint goal_V = pose->to_vehicle(goal);  // eqs 3-4
-  const PathRequest request{next_id_++, frame, goal_V.xy_m.x(), goal_V.xy_m.y()};
-  pending_ = Pending{request, now, frame_captured, *pose, goal};
+  return due && !pending_ && frame != planned_frame_;
+}
+
+void Replanner::ask(const Pending& pending) noexcept {
+  pending_ = pending;
   // Phase is kept against the plan's own clock, so that a late tick does not stretch the period.
+  const Time now = pending.asked;
   const bool in_step = asked_ && now - *asked_ < 2 * options_.replan_period;
   asked_ = in_step ? *asked_ + options_.replan_period : now;
-  planned_frame_ = frame;
-  return request;
+  planned_frame_ = pending.frame;
+}
+
+const PathRequest* Replanner::request(Time now, std::uint64_t frame, Time frame_captured,
+                                      const WorldPoint& goal, const PoseHistory& poses) noexcept {
+  const auto pose = poses.at(frame_captured);
+  if (!is_due(now, frame) || !pose) {
+    return nullptr;
+  }
+  const VehiclePoint goal_V = pose->to_vehicle(goal);  // eqs 3-4
+  request_->id = next_id_++;
+  request_->frame = frame;
+  request_->space = PathSpace::kSonarView;
+  request_->goal_x_m = goal_V.xy_m.x();
+  request_->goal_y_m = goal_V.xy_m.y();
+  ask({request_->id, frame, now, frame_captured, *pose, goal});
+  return request_.get();
+}
+
+const PathRequest* Replanner::request(Time now, const Tracks& tracks, const VehicleState& state,
+                                      const WorldPoint& goal) noexcept {
+  if (!pilot_ || !is_due(now, tracks.frame)) {
+    return nullptr;
+  }
+  request_->id = next_id_++;
+  request_->frame = tracks.frame;
+  pilot_->ask(now, tracks, state, goal, *request_);
+  ask({request_->id, tracks.frame, now, tracks.captured, pose_of(state), goal});
+  return request_.get();
 }
 
 const Plan* Replanner::answer(Time now, const SonarPath& path, double range_m) noexcept {
-  if (!pending_ || path.request != pending_->request.id) {
+  if (!pending_ || path.request != pending_->id) {
     return nullptr;
   }
-  const Pending pending = *pending_;
-  pending_.reset();
-  heard_ = now;
-  silence_said_ = false;
+  const Pending pending = take_answer(now);
   describe(pending, path.reason);
   if (path.reason == PathReason::kFound) {
     place_waypoints({path.pixels.data(), path.pixel_count}, SonarView{range_m}, pending.pose,
                     pending.goal, options_.waypoint_interval_m, plan_);
     plan_.source = WaypointSource::kCurrent;
+    plan_.rung = PlanRung::kOnRoute;
     plan_.path_id = plan_.id;
     plan_.path_captured = pending.captured;
   } else {
     keep_previous(now);
   }
   return &plan_;
+}
+
+const Plan* Replanner::answer(Time now, const SonarPath& path, const Tracks& tracks,
+                              const VehicleState& state) noexcept {
+  if (!pilot_ || !pending_ || path.request != pending_->id) {
+    return nullptr;
+  }
+  const Pending pending = take_answer(now);
+  describe(pending, path.reason);
+  pilot_->decide(now, path, tracks, state, plan_);
+  plan_.path_id = plan_.id;
+  plan_.path_captured = pending.captured;
+  return &plan_;
+}
+
+Replanner::Pending Replanner::take_answer(Time now) noexcept {
+  const Pending pending = *pending_;
+  pending_.reset();
+  heard_ = now;
+  silence_said_ = false;
+  return pending;
 }
 
 const Plan* Replanner::silence(Time now) noexcept {
@@ -113,12 +163,14 @@ const Plan* Replanner::silence(Time now) noexcept {
   plan_ = Plan{};
   plan_.id = next_id_++;
   plan_.reason = PathReason::kNoFrame;
+  plan_.rung = PlanRung::kNothing;
   return &plan_;
 }
 
 void Replanner::keep_previous(Time now) noexcept {
   const bool young =
       plan_.path_id != 0 && now - plan_.path_captured <= options_.previous_path_max_age;
+  plan_.rung = young ? PlanRung::kPrevious : PlanRung::kNothing;
   plan_.source = young ? WaypointSource::kPrevious : WaypointSource::kNone;
   if (!young) {
     plan_.waypoint_count = 0;
@@ -126,8 +178,8 @@ void Replanner::keep_previous(Time now) noexcept {
 }
 
 void Replanner::describe(const Pending& pending, PathReason reason) noexcept {
-  plan_.id = pending.request.id;
-  plan_.frame = pending.request.frame;
+  plan_.id = pending.id;
+  plan_.frame = pending.frame;
   plan_.captured = pending.captured;
   plan_.pose_x_m = pending.pose.p_WV.xy_m.x();
   plan_.pose_y_m = pending.pose.p_WV.xy_m.y();

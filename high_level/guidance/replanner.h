@@ -6,8 +6,10 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 
+#include "high_level/guidance/pilot.h"
 #include "mid_level/base/frames.h"
 #include "mid_level/base/time.h"
 #include "mid_level/messages/command.h"
@@ -20,8 +22,9 @@ struct ReplannerOptions {
   Duration replan_period{};    // at the earliest so long after the last request; the paper: 1.6 s
   Duration answer_patience{};  // a request unanswered for so long is given up
   Duration silence_limit{};    // without any answer for so long, nothing is followed
-  double waypoint_interval_m = 0.0;  // [m] the paper's C
-  Duration previous_path_max_age{};  // previous waypoints are dropped when their frame is older
+  double waypoint_interval_m = 0.0;   // [m] the paper's C
+  Duration previous_path_max_age{};   // previous waypoints are dropped when their frame is older
+  std::optional<PilotOptions> pilot;  // plans in the world from tracks; empty: in the sonar view
 };
 
 // The poses of the last seconds, so that a sonar frame can be put where the vehicle was when it
@@ -42,16 +45,23 @@ class PoseHistory {
 class Replanner {
  public:
   // first_id: above every id that an earlier program has used.
-  explicit Replanner(const ReplannerOptions& options, std::uint64_t first_id = 1) noexcept
-      : options_{options}, next_id_{first_id} {}
+  explicit Replanner(const ReplannerOptions& options, std::uint64_t first_id = 1);
 
   // Forgets plans and goal: a mission starts.
   void start(Time now) noexcept;
 
-  // Steps 2-4 and 9: the request for this frame, if one is due. frame_captured belongs to `frame`.
-  [[nodiscard]] std::optional<PathRequest> request(Time now, std::uint64_t frame,
-                                                   Time frame_captured, const WorldPoint& goal,
-                                                   const PoseHistory& poses) noexcept;
+  // Steps 2-4 and 9: the request for this frame, if one is due, else nullptr. frame_captured
+  // belongs to `frame`.
+  [[nodiscard]] const PathRequest* request(Time now, std::uint64_t frame, Time frame_captured,
+                                           const WorldPoint& goal,
+                                           const PoseHistory& poses) noexcept;
+
+  // The same in the world, for what is known at this frame.
+  [[nodiscard]] const PathRequest* request(Time now, const Tracks& tracks,
+                                           const VehicleState& state,
+                                           const WorldPoint& goal) noexcept;
+  [[nodiscard]] const Plan* answer(Time now, const SonarPath& path, const Tracks& tracks,
+                                   const VehicleState& state) noexcept;
 
   // Steps 11-12 for the answer to the pending request; nothing for any other answer.
   [[nodiscard]] const Plan* answer(Time now, const SonarPath& path, double range_m) noexcept;
@@ -62,17 +72,23 @@ class Replanner {
 
  private:
   struct Pending {
-    PathRequest request;
+    std::uint64_t id = 0;
+    std::uint64_t frame = 0;
     Time asked{};
     Time captured{};
     VehiclePose pose;
     WorldPoint goal;
   };
+  [[nodiscard]] bool is_due(Time now, std::uint64_t frame) const noexcept;
+  void ask(const Pending& pending) noexcept;
+  [[nodiscard]] Pending take_answer(Time now) noexcept;
   // Step 12.4: the previous waypoints stand, as long as they are young enough.
   void keep_previous(Time now) noexcept;
   void describe(const Pending& pending, PathReason reason) noexcept;
 
   ReplannerOptions options_;
+  std::optional<Pilot> pilot_;
+  std::unique_ptr<PathRequest> request_ = std::make_unique<PathRequest>();
   std::optional<Pending> pending_;
   std::optional<Time> asked_;
   Time heard_{};  // when the last answer came, or the mission started

@@ -2,6 +2,7 @@
 #include "high_level/guidance/waypoints.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "mid_level/base/check.h"
 
@@ -49,6 +50,41 @@ std::uint32_t WaypointTracker::update(std::span<const Waypoint> waypoints, std::
     ++index_;
   }
   return std::min(index_, last);
+}
+
+SteeringPoint point_to_steer_for(std::span<const Waypoint> waypoints, const WorldPoint& position,
+                                 double look_ahead_m) noexcept {
+  LODESMAN_CHECK(!waypoints.empty());
+  const auto at = [&](std::size_t i) {
+    return Eigen::Vector2d{waypoints[i].x_m, waypoints[i].y_m};
+  };
+  std::size_t leg = 0;
+  double share = 0.0;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
+    const Eigen::Vector2d way = at(i + 1) - at(i);
+    const double length2 = way.squaredNorm();
+    const double s =
+        length2 > 0.0 ? std::clamp(way.dot(position.xy_m - at(i)) / length2, 0.0, 1.0) : 0.0;
+    const double distance_m = (position.xy_m - at(i) - s * way).norm();
+    if (distance_m < nearest_m) {
+      nearest_m = distance_m;
+      leg = i;
+      share = s;
+    }
+  }
+  double ahead_m = look_ahead_m;
+  for (; leg + 1 < waypoints.size(); ++leg, share = 0.0) {
+    const Eigen::Vector2d way = at(leg + 1) - at(leg);
+    const double left_m = (1.0 - share) * way.norm();
+    if (ahead_m < left_m) {
+      return {{at(leg) + (share + ahead_m / way.norm()) * way},
+              static_cast<std::uint32_t>(leg + 1),
+              false};
+    }
+    ahead_m -= left_m;
+  }
+  return {{at(waypoints.size() - 1)}, static_cast<std::uint32_t>(waypoints.size() - 1), true};
 }
 
 }  // namespace lodesman

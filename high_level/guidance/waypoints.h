@@ -38,4 +38,16 @@ class WaypointTracker {
   std::uint32_t index_ = 0;
 };
 
+// What to steer for by line of sight: the point look_ahead_m along the line through the waypoints
+// from its point nearest to the vehicle, or its end.
+struct SteeringPoint {
+  WorldPoint point;
+  std::uint32_t waypoint = 0;  // the next one after it
+  bool is_end = false;
+};
+// waypoints must not be empty.
+[[nodiscard]] SteeringPoint point_to_steer_for(std::span<const Waypoint> waypoints,
+                                               const WorldPoint& position,
+                                               double look_ahead_m) noexcept;
+
 }  // namespace lodesman

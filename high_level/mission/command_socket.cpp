@@ -5,7 +5,6 @@
 #include <utility>  // Boost 1.74 uses std::exchange without including it
 
 #include <boost/asio.hpp>
-#include <nlohmann/json.hpp>
 
 #include "mid_level/base/startup_error.h"
 
@@ -18,38 +17,11 @@ namespace {
 constexpr std::size_t kMaxLine = 4096;  // [bytes] a longer command ends its connection
 constexpr int kMaxSessions = 16;
 
-[[nodiscard]] std::string refusal(const std::string& reason) {
-  return nlohmann::json{{"ok", false}, {"error", reason}}.dump();
-}
-
-// The same time for every wrong token, whatever it has right.
-[[nodiscard]] bool same_token(const std::string& a, const std::string& b) noexcept {
-  unsigned difference = a.size() == b.size() ? 0U : 1U;
-  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
-    difference |= static_cast<unsigned>(a[i] ^ b[i]);
-  }
-  return difference == 0U;
-}
-
 }  // namespace
 
 struct CommandSocket::Impl {
-  Impl(const CommandSocketOptions& options_in, Handler handler_in)
+  Impl(const CommandSocketOptions& options_in, CommandHandler handler_in)
       : options{options_in}, handler{std::move(handler_in)} {}
-
-  [[nodiscard]] std::string reply_to(const std::string& line) const {
-    const auto request = nlohmann::json::parse(line, nullptr, false);
-    if (!request.is_object() || !request.contains("command") || !request["command"].is_string()) {
-      return refusal("a command is a line {\"command\": \"...\"}");
-    }
-    const auto token = request.find("token");
-    const std::string given =
-        token != request.end() && token->is_string() ? token->get<std::string>() : "";
-    if (!options.token.empty() && !same_token(given, options.token)) {
-      return refusal("wrong or missing token");
-    }
-    return handler(request["command"].get<std::string>());
-  }
 
   asio::awaitable<void> serve(tcp::socket socket) {
     ++sessions;
@@ -58,7 +30,7 @@ struct CommandSocket::Impl {
       for (;;) {
         const std::size_t length = co_await asio::async_read_until(
             socket, asio::dynamic_buffer(buffer, kMaxLine), '\n', asio::use_awaitable);
-        const std::string reply = reply_to(buffer.substr(0, length)) + "\n";
+        const std::string reply = reply_to(buffer.substr(0, length), options.token, handler) + "\n";
         buffer.erase(0, length);
         co_await asio::async_write(socket, asio::buffer(reply), asio::use_awaitable);
       }
@@ -78,14 +50,14 @@ struct CommandSocket::Impl {
   }
 
   CommandSocketOptions options;
-  Handler handler;
+  CommandHandler handler;
   asio::io_context context{1};
   tcp::acceptor acceptor{context};
   int sessions = 0;
   std::jthread thread;
 };
 
-CommandSocket::CommandSocket(const CommandSocketOptions& options, Handler handler)
+CommandSocket::CommandSocket(const CommandSocketOptions& options, CommandHandler handler)
     : impl_{std::make_unique<Impl>(options, std::move(handler))} {
   boost::system::error_code error;
   const auto address = asio::ip::make_address(options.address, error);

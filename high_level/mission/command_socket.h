@@ -4,9 +4,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
+
+#include "high_level/mission/command_line.h"
 
 namespace lodesman {
 
@@ -18,11 +19,8 @@ struct CommandSocketOptions {
 
 class CommandSocket {
  public:
-  // Is handed the word of "command" and gives the reply, one JSON document on one line.
-  using Handler = std::function<std::string(const std::string& command)>;
-
   // Listens from here on. Throws StartupError when it cannot, or may not.
-  CommandSocket(const CommandSocketOptions& options, Handler handler);
+  CommandSocket(const CommandSocketOptions& options, CommandHandler handler);
   CommandSocket(const CommandSocket&) = delete;
   CommandSocket& operator=(const CommandSocket&) = delete;
   ~CommandSocket();

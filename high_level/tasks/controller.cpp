@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "high_level/tasks/controller.h"
 
+#include <cmath>
+
 #include "high_level/control/heading_control.h"
 
 namespace lodesman {
+namespace {
+
+constexpr double kStay_m = 0.4;         // a place to wait at is held within this
+constexpr double kAim_m = 0.2;          // nearer than this a point gives no direction
+constexpr double kSharpTurn_rad = 0.8;  // it slows down to turn by more
+constexpr double kSharpTurnShare = 0.3;
+
+}  // namespace
 
 ControllerTask::ControllerTask(Blackboard& board, Role role, const ControllerOptions& options)
     : options_{options},
@@ -47,19 +57,53 @@ HelmCommand ControllerTask::decide(Time now) noexcept {
     return helm;
   }
   const WorldPoint position{{state->value.x_m, state->value.y_m}};
-  const std::span<const Waypoint> waypoints{plan->value.waypoints.data(),
-                                            plan->value.waypoint_count};
-  helm.waypoint_index = tracker_.update(waypoints, plan->value.path_id, position);
+  const Heading heading = Heading::clockwise_from_y_rad(attitude->value.heading_rad);
+  helm.reason = HelmReason::kTracking;
+  if (plan->value.steer_by == SteerBy::kWaypoints) {
+    steer_for_waypoint(plan->value, position, heading, helm);
+  } else {
+    steer_by_pilot(plan->value, position, heading, helm);
+  }
+  return helm;
+}
+
+void ControllerTask::steer_for_waypoint(const Plan& plan, const WorldPoint& position,
+                                        Heading heading, HelmCommand& helm) noexcept {
+  const std::span<const Waypoint> waypoints{plan.waypoints.data(), plan.waypoint_count};
+  helm.waypoint_index = tracker_.update(waypoints, plan.path_id, position);
   const Waypoint& ahead = waypoints[helm.waypoint_index];
   helm.waypoint_x_m = ahead.x_m;
   helm.waypoint_y_m = ahead.y_m;
   const Heading reference =
       Heading::of_displacement(ahead.x_m - position.xy_m.x(), ahead.y_m - position.xy_m.y());
-  const Heading heading = Heading::clockwise_from_y_rad(attitude->value.heading_rad);
-  helm.reason = HelmReason::kTracking;
   helm.surge_ref = options_.surge_ref;
   helm.head_ref = head_ref(heading, reference, options_.heading_gain_per_deg);
-  return helm;
+}
+
+void ControllerTask::steer_by_pilot(const Plan& plan, const WorldPoint& position, Heading heading,
+                                    HelmCommand& helm) noexcept {
+  const SteeringPoint ahead = point_to_steer_for({plan.waypoints.data(), plan.waypoint_count},
+                                                 position, options_.look_ahead_m);
+  helm.waypoint_index = ahead.waypoint;
+  helm.waypoint_x_m = ahead.point.xy_m.x();
+  helm.waypoint_y_m = ahead.point.xy_m.y();
+  Heading reference = Heading::clockwise_from_y_rad(plan.course_rad);
+  double share = plan.speed_share;
+  if (plan.steer_by == SteerBy::kLine) {
+    const Eigen::Vector2d way = ahead.point.xy_m - position.xy_m;
+    const double left_m = way.norm();
+    if (plan.stay_at_end && ahead.is_end && left_m < kStay_m) {
+      return;  // there: neutral
+    }
+    if (left_m > kAim_m) {
+      reference = Heading::of_displacement(way.x(), way.y());
+    }
+  }
+  if (share > 0.0 && std::abs(heading.turn_to_rad(reference)) > kSharpTurn_rad) {
+    share *= kSharpTurnShare;
+  }
+  helm.surge_ref = static_cast<std::int32_t>(std::lround(share * options_.surge_ref));
+  helm.head_ref = head_ref(heading, reference, options_.heading_gain_per_deg);
 }
 
 }  // namespace lodesman

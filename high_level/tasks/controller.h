@@ -13,6 +13,8 @@ struct ControllerOptions {
   int surge_ref = 0;                  // [-] [-100, 100] eq. 7
   double heading_gain_per_deg = 0.0;  // [1/deg] > 0 Kh of eq. 9
   double waypoint_radius_m = 0.0;     // [m] > 0
+  double look_ahead_m = 0.0;          // [m] > 0 of steering by line of sight
+  double look_ahead_s = 0.0;          // [s] what of it comes with a metre a second
 };
 
 class ControllerTask final : public Task {
@@ -23,6 +25,10 @@ class ControllerTask final : public Task {
 
  private:
   [[nodiscard]] HelmCommand decide(Time now) noexcept;
+  void steer_for_waypoint(const Plan& plan, const WorldPoint& position, Heading heading,
+                          HelmCommand& helm) noexcept;
+  void steer_by_pilot(const Plan& plan, const WorldPoint& position, Heading heading,
+                      HelmCommand& helm) noexcept;
 
   ControllerOptions options_;
   WaypointTracker tracker_;

@@ -5,6 +5,42 @@
 
 namespace lodesman {
 
+namespace {
+
+[[nodiscard]] PilotOptions read_pilot_options(const TomlTable& configuration) {
+  PilotOptions options;
+  const TomlTable zones = configuration.table("zones");
+  options.zones.hull_radius_m = zones.number("hull_radius_m", Range::between(0.0, 10.0));
+  options.zones.margin_m = zones.number("margin_m", Range::between(0.0, 20.0));
+  options.zones.margin_per_speed_s = zones.number("margin_per_speed_s", Range::between(0.0, 20.0));
+  options.zones.least_margin_m = zones.number("least_margin_m", Range::between(0.0, 20.0));
+  options.zones.doubt_sigmas = zones.number("doubt_sigmas", Range::between(0.0, 10.0));
+  options.zones.doubt_max_m = zones.number("doubt_max_m", Range::between(0.0, 20.0));
+  options.zones.slow_share = zones.number("slow_share", Range::between(0.0, 1.0));
+  const TomlTable pilot = configuration.table("pilot");
+  options.side_gain_m = pilot.number("side_gain_m", Range::between(0.0, 100.0));
+  options.narrow_speed_share = pilot.number("narrow_speed_share", Range::above(0.0, 1.0));
+  options.latency = pilot.duration("latency_s", Range::between(0.0, 2.0));
+  auto& manoeuvres = options.manoeuvres;
+  manoeuvres.clearance_m = pilot.number("clearance_m", Range::above(0.0, 20.0));
+  manoeuvres.core_m = pilot.number("core_m", Range::between(0.0, 10.0));
+  manoeuvres.switch_gain_s = pilot.number("manoeuvre_gain_s", Range::between(0.0, 100.0));
+  manoeuvres.doubt_sigmas = options.zones.doubt_sigmas;
+  manoeuvres.doubt_max_m = options.zones.doubt_max_m;
+  options.response.look_ahead_m = pilot.number("look_ahead_m", Range::above(0.0, 50.0));
+  const TomlTable vehicle = configuration.table("vehicle");
+  options.response.hull_half_length_m =
+      vehicle.number("hull_length_m", Range::above(0.0, 100.0)) / 2.0;
+  options.response.hull_half_beam_m = vehicle.number("hull_beam_m", Range::above(0.0, 50.0)) / 2.0;
+  options.response.surge_time_s = vehicle.number("surge_time_s", Range::above(0.0, 100.0));
+  options.response.turn_rate_max_rad_s =
+      vehicle.number("turn_rate_max_rad_s", Range::above(0.0, 5.0));
+  options.response.heading_gain_per_s = 1.0;
+  return options;
+}
+
+}  // namespace
+
 HighLevelOptions read_high_level_options(const TomlTable& configuration) {
   HighLevelOptions options;
   const TomlTable planner = configuration.table("planner");
@@ -14,6 +50,12 @@ HighLevelOptions read_high_level_options(const TomlTable& configuration) {
   replanner.waypoint_interval_m = planner.number("waypoint_interval_m", Range::between(0.1, 50.0));
   replanner.previous_path_max_age =
       planner.duration("previous_path_max_age_s", Range::between(0.0, 1e6));
+  const PilotOptions pilot = read_pilot_options(configuration);
+  options.controller.look_ahead_s =
+      configuration.table("pilot").number("look_ahead_s", Range::between(0.0, 60.0));
+  if (planner.choice("space", {"world", "sonar_view"}) == 0) {
+    replanner.pilot = pilot;
+  }
   const TomlTable guidance = configuration.table("guidance");
   options.controller.waypoint_radius_m =
       guidance.number("waypoint_radius_m", Range::between(0.05, 20.0));

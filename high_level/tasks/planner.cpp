@@ -33,6 +33,7 @@ PlannerTask::PlannerTask(Blackboard& board, Role role, PlannerOptions options)
       orders_{board.operator_command},
       vehicle_state_{board.vehicle_state},
       obstacles_{board.sonar_obstacles},
+      tracks_{board.tracks},
       sonar_path_{board.sonar_path},
       requests_{board.path_request, role, "path_request"},
       plans_{board.plan, role, "plan"},
@@ -72,18 +73,42 @@ void PlannerTask::take_orders(Time now, bool estimate_is_fresh) noexcept {
 }
 
 void PlannerTask::replan(Time now) noexcept {
+  if (options_.replanner.pilot) {
+    replan_in_world(now);
+  } else {
+    replan_in_view(now);
+  }
+  publish(replanner_.silence(now), now);
+}
+
+void PlannerTask::replan_in_view(Time now) noexcept {
   if (const auto* path = sonar_path_.latest(); path != nullptr) {
     publish(replanner_.answer(now, path->value, options_.sonar_range_m), now);
   }
   const auto* frame = obstacles_.fresh(now, max_age::kSonarFrame);
-  if (frame != nullptr) {
-    const auto request =
-        replanner_.request(now, frame->value.frame, frame->value.captured, mission_.goal(), poses_);
-    if (request) {
-      requests_.publish(*request, now);
-    }
+  if (frame == nullptr) {
+    return;
   }
-  publish(replanner_.silence(now), now);
+  const auto* request =
+      replanner_.request(now, frame->value.frame, frame->value.captured, mission_.goal(), poses_);
+  if (request != nullptr) {
+    requests_.publish(*request, now);
+  }
+}
+
+void PlannerTask::replan_in_world(Time now) noexcept {
+  const auto* state = vehicle_state_.fresh(now, max_age::kVehicleState);
+  const auto* tracks = tracks_.fresh(now, max_age::kSonarFrame);
+  if (state == nullptr || tracks == nullptr) {
+    return;
+  }
+  if (const auto* path = sonar_path_.latest(); path != nullptr) {
+    publish(replanner_.answer(now, path->value, tracks->value, state->value), now);
+  }
+  const auto* request = replanner_.request(now, tracks->value, state->value, mission_.goal());
+  if (request != nullptr) {
+    requests_.publish(*request, now);
+  }
 }
 
 void PlannerTask::publish(const Plan* plan, Time now) noexcept {

@@ -23,6 +23,8 @@ class PlannerTask final : public Task {
  private:
   void take_orders(Time now, bool estimate_is_fresh) noexcept;
   void replan(Time now) noexcept;
+  void replan_in_view(Time now) noexcept;
+  void replan_in_world(Time now) noexcept;
   void publish(const Plan* plan, Time now) noexcept;
 
   PlannerOptions options_;
@@ -32,6 +34,7 @@ class PlannerTask final : public Task {
   Reader<OperatorCommand> orders_;
   Reader<VehicleState> vehicle_state_;
   Reader<SonarObstacles> obstacles_;
+  Reader<Tracks> tracks_;
   Reader<SonarPath> sonar_path_;
   Writer<PathRequest> requests_;
   Writer<Plan> plans_;

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "low_level/sonar/image_size.h"
 #include "mid_level/base/heading.h"
 #include "mid_level/base/startup_error.h"
 
@@ -19,6 +20,12 @@ namespace lodesman {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
+
+// Whole signatures: what has half of one OpenCV would hand to decoders of other formats.
+constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n";
+constexpr std::string_view kJpeg = "\xFF\xD8\xFF";
+
+constexpr std::uint64_t kMaxImageBytes = 64U << 20U;
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& reason) {
   throw StartupError{file.string(), 1, "image", reason};
@@ -28,6 +35,9 @@ Bytes read_bytes(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
     refuse(file, "no such file");
+  }
+  if (std::filesystem::file_size(file, error) > kMaxImageBytes) {
+    refuse(file, "is larger than 64 MiB");
   }
   std::ifstream stream{file, std::ios::binary};
   Bytes bytes{std::istreambuf_iterator<char>{stream}, std::istreambuf_iterator<char>{}};
@@ -47,7 +57,7 @@ bool starts_with(const Bytes& bytes, std::string_view magic) {
 bool is_whole(const Bytes& bytes) {
   constexpr std::array<std::uint8_t, 4> kPngEnd{'I', 'E', 'N', 'D'};
   constexpr std::array<std::uint8_t, 2> kJpegEnd{0xFF, 0xD9};
-  if (starts_with(bytes, "\x89PNG")) {
+  if (starts_with(bytes, kPng)) {
     return std::search(bytes.begin(), bytes.end(), kPngEnd.begin(), kPngEnd.end()) != bytes.end();
   }
   return std::search(bytes.begin(), bytes.end(), kJpegEnd.begin(), kJpegEnd.end()) != bytes.end();
@@ -125,11 +135,14 @@ GreyImage read_grey_image(const std::filesystem::path& file) {
   if (starts_with(bytes, "P5")) {
     return decode_pgm(bytes, file);
   }
-  if (!starts_with(bytes, "\x89PNG") && !starts_with(bytes, "\xFF\xD8")) {
+  if (!starts_with(bytes, kPng) && !starts_with(bytes, kJpeg)) {
     refuse(file, "not a binary PGM, PNG or JPEG image");
   }
   if (!is_whole(bytes)) {
     refuse(file, "the image is truncated");
+  }
+  if (declared_pixels(bytes) > kMaxImagePixels) {
+    refuse(file, "must have at most 64 million pixels");
   }
   cv::Mat decoded;
   try {

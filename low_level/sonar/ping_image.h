@@ -18,6 +18,9 @@ struct GreyImage {
   std::vector<std::uint8_t> pixels;  // row by row, from the top
 };
 
+// Far beyond any sonar frame, and little enough to decode on any machine.
+inline constexpr std::uint64_t kMaxImagePixels = 64'000'000;
+
 // An 8-bit PGM, PNG or JPEG. Throws StartupError `file:1: image: reason`.
 [[nodiscard]] GreyImage read_grey_image(const std::filesystem::path& file);
 

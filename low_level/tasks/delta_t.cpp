@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "low_level/sonar/frame_tracks.h"
 #include "low_level/sonar/known_obstacles.h"
 
 namespace lodesman {
@@ -14,7 +15,12 @@ DeltaTTask::DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaT
       vehicle_state_{board.vehicle_state},
       mission_status_{board.mission_status},
       pings_{board.sonar_ping, role, "sonar_ping"},
-      obstacles_{board.sonar_obstacles, role, "sonar_obstacles"} {}
+      obstacles_{board.sonar_obstacles, role, "sonar_obstacles"},
+      tracks_{board.tracks, role, "tracks"} {
+  if (options_.known_scene) {
+    oracle_.emplace(*options_.known_scene, options_.track_oracle);
+  }
+}
 
 void DeltaTTask::step(Time now) noexcept {
   if (sonar_.poll(now, *ping_) != ReadStatus::kFresh) {
@@ -32,6 +38,20 @@ void DeltaTTask::step(Time now) noexcept {
     make_own_zones(*options_.own_zones, *seen_);
   }
   obstacles_.publish(*seen_, now);
+  if (oracle_ || place_frame(now)) {
+    tracks_.publish(*known_, now);
+  }
+}
+
+bool DeltaTTask::place_frame(Time now) noexcept {
+  const auto* state = vehicle_state_.fresh(now, max_age::kVehicleState);
+  if (state == nullptr) {
+    return false;
+  }
+  const VehicleState& at = state->value;
+  tracks_of_frame(*seen_, {{{at.x_m, at.y_m}}, Heading::clockwise_from_y_rad(at.heading_rad)},
+                  *known_);
+  return true;
 }
 
 bool DeltaTTask::see_known_scene(Time now) noexcept {
@@ -49,6 +69,7 @@ bool DeltaTTask::see_known_scene(Time now) noexcept {
   view.pose = {{{at.x_m, at.y_m}}, Heading::clockwise_from_y_rad(at.heading_rad)};
   view.range_m = ping_->range_m;
   see_known_obstacles(*options_.known_scene, view, *seen_);
+  oracle_->see(view, *known_);
   return true;
 }
 

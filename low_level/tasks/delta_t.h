@@ -11,6 +11,7 @@
 #include "drivers/hal/devices.h"
 #include "low_level/sonar/protection.h"
 #include "low_level/sonar/segmentation.h"
+#include "low_level/sonar/track_oracle.h"
 #include "mid_level/messages/moving_obstacle.h"
 #include "mid_level/runtime/task.h"
 
@@ -19,6 +20,7 @@ namespace lodesman {
 struct DeltaTOptions {
   SegmentationOptions segmentation{};
   std::optional<OwnZones> own_zones;  // empty: the protection zones that came with the obstacles
+  TrackOracleOptions track_oracle{};
   // The scenario's obstacles, for the known-obstacle source; empty: obstacles come from echoes.
   std::optional<std::vector<MovingObstacle>> known_scene;
 };
@@ -31,6 +33,8 @@ class DeltaTTask final : public Task {
  private:
   // False when the estimate is stale: then nothing is known of where the obstacles are.
   [[nodiscard]] bool see_known_scene(Time now) noexcept;
+  // Tracks of what was just seen, at the newest estimate; false when that is stale.
+  [[nodiscard]] bool place_frame(Time now) noexcept;
 
   ImagingSonar& sonar_;
   DeltaTOptions options_;
@@ -39,9 +43,12 @@ class DeltaTTask final : public Task {
   Reader<MissionStatus> mission_status_;
   Writer<SonarPing> pings_;
   Writer<SonarObstacles> obstacles_;
+  Writer<Tracks> tracks_;
+  std::optional<TrackOracle> oracle_;
   // Too large for a stack.
   std::unique_ptr<SonarPing> ping_ = std::make_unique<SonarPing>();
   std::unique_ptr<SonarObstacles> seen_ = std::make_unique<SonarObstacles>();
+  std::unique_ptr<Tracks> known_ = std::make_unique<Tracks>();
 };
 
 }  // namespace lodesman

@@ -30,6 +30,18 @@ void PathFinderTask::step(Time now) noexcept {
 
 void PathFinderTask::find(const PathRequest& request) noexcept {
   const Stopwatch stopwatch;
+  path_->point_count = 0;
+  if (request.space == PathSpace::kWorld) {
+    find_in_world(request);
+  } else {
+    find_in_view(request);
+  }
+  const auto took_ns = stopwatch.elapsed().count();
+  constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
+  path_->plan_time_ns = static_cast<std::uint32_t>(took_ns < kMost ? took_ns : kMost);
+}
+
+void PathFinderTask::find_in_view(const PathRequest& request) noexcept {
   const auto* newest = obstacles_.latest();
   // Frames are numbered as they are published, so the one asked for is a few places back.
   while (newest != nullptr && newest->value.frame > request.frame) {
@@ -45,9 +57,15 @@ void PathFinderTask::find(const PathRequest& request) noexcept {
   } else {
     finder_.find_path(newest->value, request, range_m_, *path_);
   }
-  const auto took_ns = stopwatch.elapsed().count();
-  constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
-  path_->plan_time_ns = static_cast<std::uint32_t>(took_ns < kMost ? took_ns : kMost);
+}
+
+void PathFinderTask::find_in_world(const PathRequest& request) noexcept {
+  path_->request = request.id;
+  path_->frame = request.frame;
+  path_->captured = Time{};  // what it was planned in came with the request
+  path_->cost_10_14 = 0;
+  path_->pixel_count = 0;
+  world_finder_.find_path(request, *path_);
 }
 
 }  // namespace lodesman

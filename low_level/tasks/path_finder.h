@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "low_level/path/path_finder.h"
+#include "low_level/path/world_path_finder.h"
 #include "mid_level/runtime/task.h"
 
 namespace lodesman {
@@ -18,9 +19,12 @@ class PathFinderTask final : public Task {
 
  private:
   void find(const PathRequest& request) noexcept;
+  void find_in_view(const PathRequest& request) noexcept;
+  void find_in_world(const PathRequest& request) noexcept;
 
   double range_m_;
   PathFinder finder_;
+  WorldPathFinder world_finder_;
   Reader<PathRequest> requests_;
   Reader<SonarObstacles> obstacles_;
   Writer<SonarPath> paths_;

@@ -12,6 +12,7 @@
 #include "mid_level/messages/health.h"
 #include "mid_level/messages/path.h"
 #include "mid_level/messages/sonar.h"
+#include "mid_level/messages/tracks.h"
 #include "mid_level/messages/vehicle.h"
 
 namespace lodesman {
@@ -52,7 +53,8 @@ struct Blackboard {
   Channel<VehicleState, 64> vehicle_state;
   Channel<SonarPing, 4> sonar_ping;
   Channel<SonarObstacles, 16> sonar_obstacles;
-  Channel<PathRequest, 16> path_request;
+  Channel<Tracks, 8> tracks;
+  Channel<PathRequest, 8> path_request;
   Channel<SonarPath, 8> sonar_path;
   Channel<Plan, 16> plan;
   Channel<OperatorCommand, 8> operator_command;
@@ -82,6 +84,7 @@ void for_each_channel(Board& board, Visit visit) {
   visit(ChannelInfo{"sonar_ping", Role::kLow, "delta_t", max_age::kSonarFrame}, board.sonar_ping);
   visit(ChannelInfo{"sonar_obstacles", Role::kLow, "delta_t", max_age::kSonarFrame},
         board.sonar_obstacles);
+  visit(ChannelInfo{"tracks", Role::kLow, "delta_t", max_age::kSonarFrame}, board.tracks);
   visit(ChannelInfo{"path_request", Role::kHigh, "planner", max_age::kNoLimit}, board.path_request);
   visit(ChannelInfo{"sonar_path", Role::kLow, "path_finder", max_age::kNoLimit}, board.sonar_path);
   visit(ChannelInfo{"plan", Role::kHigh, "planner", max_age::kNoLimit}, board.plan);

@@ -5,6 +5,7 @@
 // or bounded and allocate nothing; a Writer or Reader belongs to one thread.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -41,22 +42,23 @@ enum class Role : std::uint32_t { kNobody = 0, kLow = 1, kHigh = 2, kOperator = 
 // change, every word is stored with release and loaded with acquire, so that whoever sees a new
 // word also sees the odd version before it (the thread sanitizer follows this; it does not model
 // stand-alone fences).
-template <Wire T>
+template <Wire T, template <class> class Atomic = std::atomic>
 struct ChannelSlot {
   static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
-  std::atomic<std::uint64_t> version{0};  // 2 s - 1 while value s is written, 2 s once it is whole
-  std::atomic<std::int64_t> stamp_ns{0};
-  std::atomic<std::uint64_t> bytes{0};  // how much of the value was written
-  std::array<std::atomic<std::uint64_t>, kWords> words{};
+  Atomic<std::uint64_t> version{0};  // 2 s - 1 while value s is written, 2 s once it is whole
+  Atomic<std::int64_t> stamp_ns{0};
+  Atomic<std::uint64_t> bytes{0};  // how much of the value was written
+  std::array<Atomic<std::uint64_t>, kWords> words{};
 };
 
-template <Wire T>
+template <Wire T, template <class> class Atomic = std::atomic>
 struct ChannelHead {
-  alignas(64) std::atomic<std::uint64_t> newest{0};  // sequence of the last whole value
-  std::atomic<std::uint32_t> writer{0};              // the Role that claimed it
+  alignas(64) Atomic<std::uint64_t> newest{0};  // sequence of the last whole value
+  Atomic<std::uint32_t> writer{0};              // the Role that claimed it
 };
 
-template <Wire T, std::size_t N>
+// Atomic is std::atomic; a test puts one in its place that lets it choose what comes before what.
+template <Wire T, std::size_t N, template <class> class Atomic = std::atomic>
 class Channel {
   static_assert(N >= 2, "a ring needs a whole value beside the one being written");
 
@@ -64,8 +66,8 @@ class Channel {
   using Value = T;
   static constexpr std::size_t kSlots = N;
 
-  ChannelHead<T> head;
-  std::array<ChannelSlot<T>, N> slots;
+  ChannelHead<T, Atomic> head;
+  std::array<ChannelSlot<T, Atomic>, N> slots;
 
   // Frees the claim of a program that is known to be dead.
   void release_claim_of(Role role) noexcept {
@@ -75,12 +77,12 @@ class Channel {
 };
 
 // The one writer of a channel: made once, before the tasks run.
-template <Wire T>
+template <Wire T, template <class> class Atomic = std::atomic>
 class Writer {
  public:
   // Throws StartupError when the channel has a writer already.
   template <std::size_t N>
-  Writer(Channel<T, N>& channel, Role role, const char* name)
+  Writer(Channel<T, N, Atomic>& channel, Role role, const char* name)
       : head_{&channel.head}, slots_{channel.slots.data()}, count_{N} {
     std::uint32_t nobody = 0;
     if (!head_->writer.compare_exchange_strong(nobody, static_cast<std::uint32_t>(role),
@@ -106,7 +108,7 @@ class Writer {
 
   void publish(const T& value, Time now) noexcept {
     const std::uint64_t sequence = ++sequence_;
-    ChannelSlot<T>& slot = slots_[sequence % count_];
+    ChannelSlot<T, Atomic>& slot = slots_[sequence % count_];
     const std::size_t bytes = used_bytes(value);
     LODESMAN_CHECK(bytes <= sizeof(T));
     slot.version.store(2 * sequence - 1, std::memory_order_relaxed);
@@ -131,18 +133,18 @@ class Writer {
   [[nodiscard]] std::uint64_t sequence() const noexcept { return sequence_; }
 
  private:
-  ChannelHead<T>* head_;
-  ChannelSlot<T>* slots_;
+  ChannelHead<T, Atomic>* head_;
+  ChannelSlot<T, Atomic>* slots_;
   std::size_t count_;
   std::uint64_t sequence_ = 0;
 };
 
 // A reader with a copy of its own: what it hands out stays valid until its next call.
-template <Wire T>
+template <Wire T, template <class> class Atomic = std::atomic>
 class Reader {
  public:
   template <std::size_t N>
-  explicit Reader(const Channel<T, N>& channel)
+  explicit Reader(const Channel<T, N, Atomic>& channel)
       : head_{&channel.head},
         slots_{channel.slots.data()},
         count_{N},
@@ -169,18 +171,21 @@ class Reader {
   // The oldest value after the one held that the ring still has; nullptr when there is none yet.
   // Values that were overwritten before they were read are counted in missed().
   [[nodiscard]] const Stamped<T>* next() noexcept {
+    const std::uint64_t held = held_->sequence;
+    std::uint64_t wanted = held + 1;
     for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
       const std::uint64_t newest = newest_sequence();
-      if (newest <= held_->sequence) {
+      if (newest < wanted) {
         return nullptr;
       }
       const std::uint64_t oldest = newest >= count_ ? newest - count_ + 1 : 1;
-      const std::uint64_t wanted = held_->sequence + 1 > oldest ? held_->sequence + 1 : oldest;
-      const std::uint64_t held = held_->sequence;
+      wanted = std::max(wanted, oldest);
       if (take(wanted)) {
         missed_ += wanted - held - 1;
         return held_.get();
       }
+      // Its slot is being written over, perhaps for ever by a writer that is dead: it is gone.
+      ++wanted;
     }
     return nullptr;
   }
@@ -200,7 +205,7 @@ class Reader {
 
   // Copies value `sequence` into held_; leaves held_ as it was when that value is not whole.
   [[nodiscard]] bool take(std::uint64_t sequence) noexcept {
-    const ChannelSlot<T>& slot = slots_[sequence % count_];
+    const ChannelSlot<T, Atomic>& slot = slots_[sequence % count_];
     if (slot.version.load(std::memory_order_acquire) != 2 * sequence) {
       return false;
     }
@@ -228,8 +233,8 @@ class Reader {
     return true;
   }
 
-  const ChannelHead<T>* head_;
-  const ChannelSlot<T>* slots_;
+  const ChannelHead<T, Atomic>* head_;
+  const ChannelSlot<T, Atomic>* slots_;
   std::size_t count_;
   std::unique_ptr<Stamped<T>> held_;
   std::unique_ptr<Stamped<T>> spare_;

@@ -65,6 +65,28 @@ enum class WaypointSource : std::uint8_t {
 };
 [[nodiscard]] const char* to_string(WaypointSource source) noexcept;
 
+// What the plan does about it when the straight way to the goal is not to be had; the highest one
+// that works is taken.
+enum class PlanRung : std::uint8_t {
+  kOnRoute,    // along the path to the goal
+  kAside,      // on another course for a while, because of something that moves or is close
+  kSlow,       // along the path, slower
+  kStop,       // stopped or astern, until it is clear
+  kEscape,     // out of a zone that the vehicle is in
+  kNearGoal,   // the goal lies in a zone: to the nearest free point, and wait there
+  kBestPoint,  // nothing leads to the goal: to the nearest point that can be reached, and wait
+  kPrevious,   // no answer or no frame: along the previous waypoints
+  kNothing,    // nothing to follow
+};
+[[nodiscard]] const char* to_string(PlanRung rung) noexcept;
+
+// How the controller follows a plan.
+enum class SteerBy : std::uint8_t {
+  kWaypoints,  // for the waypoint ahead (the paper's eq. 8)
+  kLine,       // by line of sight along the line through the waypoints
+  kCourse,     // on a course
+};
+
 // One pass through Fig. 1. Written by the planner task once an answer of PathFinder (or a request
 // that got none); read by the controller and displays.
 struct Plan {
@@ -78,6 +100,16 @@ struct Plan {
   double goal_y_m = 0.0;          // [m] [world]
   PathReason reason = PathReason::kNoPath;
   WaypointSource source = WaypointSource::kNone;
+  PlanRung rung = PlanRung::kOnRoute;
+  SteerBy steer_by = SteerBy::kWaypoints;
+  double course_rad = 0.0;           // [rad] [-pi, pi] where it is steered by
+  double speed_share = 1.0;          // [-] [-1, 1] of the mission's SurgeRef
+  bool stay_at_end = false;          // the last waypoint is a place to wait at
+  bool narrow = false;               // zones had to give what they may
+  bool changed = false;              // another side or another manoeuvre than in the plan before
+  std::uint32_t cause = 0;           // [-] Track::id that the rung is about; 0: none
+  double clearance_m = 0.0;          // [m] least one foreseen, of the hull; infinity: no obstacle
+  double clearance_after_s = 0.0;    // [s] when
   std::uint64_t path_id = 0;         // [-] the plan whose path the waypoints belong to
   Time path_captured{};              // [ns] capture time of that plan's frame: how old the path is
   std::uint32_t waypoint_count = 0;  // [-] [0, kMaxWaypoints]
@@ -100,6 +132,16 @@ struct Plan {
                       field("goal_y_m", &P::goal_y_m),
                       field("reason", &P::reason),
                       field("source", &P::source),
+                      field("rung", &P::rung),
+                      field("steer_by", &P::steer_by),
+                      field("course_rad", &P::course_rad),
+                      field("speed_share", &P::speed_share),
+                      field("stay_at_end", &P::stay_at_end),
+                      field("narrow", &P::narrow),
+                      field("changed", &P::changed),
+                      field("cause", &P::cause),
+                      field("clearance_m", &P::clearance_m),
+                      field("clearance_after_s", &P::clearance_after_s),
                       field("path_id", &P::path_id),
                       field("path_captured", &P::path_captured),
                       field("waypoint_count", &P::waypoint_count),

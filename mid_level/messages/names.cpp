@@ -36,6 +36,21 @@ const char* to_string(WaypointSource source) noexcept {
   return "unknown";
 }
 
+const char* to_string(PlanRung rung) noexcept {
+  switch (rung) {
+    case PlanRung::kOnRoute: return "on_route";
+    case PlanRung::kAside: return "aside";
+    case PlanRung::kSlow: return "slow";
+    case PlanRung::kStop: return "stop";
+    case PlanRung::kEscape: return "escape";
+    case PlanRung::kNearGoal: return "near_goal";
+    case PlanRung::kBestPoint: return "best_point";
+    case PlanRung::kPrevious: return "previous";
+    case PlanRung::kNothing: return "nothing";
+  }
+  return "unknown";
+}
+
 const char* to_string(HelmReason reason) noexcept {
   switch (reason) {
     case HelmReason::kTracking: return "tracking";

@@ -10,22 +10,64 @@
 
 #include "mid_level/base/time.h"
 #include "mid_level/messages/fields.h"
+#include "mid_level/messages/obstacle.h"
 
 namespace lodesman {
 
 inline constexpr std::size_t kMaxPathPixels = 16384;
 
+// Where a path is looked for.
+enum class PathSpace : std::uint8_t {
+  kSonarView,  // the pixels of the sonar view (the paper): zones are those of the sonar frame
+  kWorld,      // the plane round the start, in any direction: zones come with the request
+};
+
+// A zone to keep out of.
+struct PathZone {
+  Obstacle shape{};     // [world] with its protection zone
+  double give_m = 0.0;  // [m] >= 0 what of the zone may be given up where there is no way otherwise
+  bool may_keep_to_port = true;       // a path may bend round it with it on the port side ...
+  bool may_keep_to_starboard = true;  // ... or on the starboard side
+
+  static constexpr auto fields() noexcept {
+    using Z = PathZone;
+    return std::tuple{field("shape", &Z::shape), field("give_m", &Z::give_m),
+                      field("may_keep_to_port", &Z::may_keep_to_port),
+                      field("may_keep_to_starboard", &Z::may_keep_to_starboard)};
+  }
+};
+
 // "A path to this goal, please." Written by the planner task; read by PathFinder.
 struct PathRequest {
   std::uint64_t id = 0;     // [-] counts up by one a request
   std::uint64_t frame = 0;  // [-] the sonar frame to plan in (SonarObstacles::frame)
-  double goal_x_m = 0.0;    // [m] [vehicle] the goal at that frame's capture time
-  double goal_y_m = 0.0;    // [m] [vehicle]
+  PathSpace space = PathSpace::kSonarView;
+  double goal_x_m = 0.0;  // [m] kSonarView: [vehicle] at that frame's capture time; kWorld: [world]
+  double goal_y_m = 0.0;  // [m]
+  double start_x_m = 0.0;  // [m] [world] kWorld only
+  double start_y_m = 0.0;  // [m] [world]
+  // [m] a path that passes zones on other sides than asked for must be shorter by this. kWorld only
+  double side_gain_m = 0.0;
+  std::uint32_t zone_count = 0;  // [-] [0, kMaxObstacles] kWorld only
+  std::array<PathZone, kMaxObstacles> zones{};
+
+  [[nodiscard]] std::size_t used_bytes() const noexcept {
+    return offsetof(PathRequest, zones) +
+           std::min<std::size_t>(zone_count, kMaxObstacles) * sizeof(PathZone);
+  }
 
   static constexpr auto fields() noexcept {
     using P = PathRequest;
-    return std::tuple{field("id", &P::id), field("frame", &P::frame),
-                      field("goal_x_m", &P::goal_x_m), field("goal_y_m", &P::goal_y_m)};
+    return std::tuple{field("id", &P::id),
+                      field("frame", &P::frame),
+                      field("space", &P::space),
+                      field("goal_x_m", &P::goal_x_m),
+                      field("goal_y_m", &P::goal_y_m),
+                      field("start_x_m", &P::start_x_m),
+                      field("start_y_m", &P::start_y_m),
+                      field("side_gain_m", &P::side_gain_m),
+                      field("zone_count", &P::zone_count),
+                      field("zones", &P::zones, &P::zone_count)};
   }
 };
 
@@ -41,6 +83,17 @@ enum class PathReason : std::uint8_t {
 inline constexpr std::size_t kPathReasonCount = 7;
 // The reason as the contract spells it: "found", "no_path", ...
 [[nodiscard]] const char* to_string(PathReason reason) noexcept;
+
+inline constexpr std::size_t kMaxPathPoints = 512;
+
+struct PathPoint {
+  double x_m = 0.0;  // [m] [world]
+  double y_m = 0.0;  // [m] [world]
+
+  static constexpr auto fields() noexcept {
+    return std::tuple{field("x_m", &PathPoint::x_m), field("y_m", &PathPoint::y_m)};
+  }
+};
 
 struct PathPixel {
   std::int16_t column = 0;  // [px] [0, 865] of the sonar view
@@ -58,8 +111,15 @@ struct SonarPath {
   std::uint64_t frame = 0;    // [-] SonarObstacles::frame it was planned in
   Time captured{};            // [ns] capture time of that frame
   PathReason reason = PathReason::kNoPath;
-  std::int32_t cost_10_14 = 0;     // [-] 10 a straight and 14 a diagonal step; 0 where not found
-  std::uint32_t expansions = 0;    // [-] nodes taken from the open list
+  std::int32_t cost_10_14 = 0;   // [-] 10 a straight and 14 a diagonal step; 0 where not found
+  std::uint32_t expansions = 0;  // [-] nodes taken from the open list
+  // kWorld: the path as a line, start first; where none was found, to the point nearest to the
+  // goal.
+  double length_m = 0.0;          // [m]
+  bool narrow = false;            // zones had to give what they may
+  bool sides_changed = false;     // not the sides that were asked for
+  std::uint32_t point_count = 0;  // [-] [0, kMaxPathPoints]
+  std::array<PathPoint, kMaxPathPoints> points{};
   std::uint32_t plan_time_ns = 0;  // [ns] obstacle list to path, measured: not in the hash
   std::uint32_t pixel_count = 0;   // [-] [0, kMaxPathPixels]
   std::array<PathPixel, kMaxPathPixels> pixels{};
@@ -77,6 +137,11 @@ struct SonarPath {
                       field("reason", &P::reason),
                       field("cost_10_14", &P::cost_10_14),
                       field("expansions", &P::expansions),
+                      field("length_m", &P::length_m),
+                      field("narrow", &P::narrow),
+                      field("sides_changed", &P::sides_changed),
+                      field("point_count", &P::point_count),
+                      field("points", &P::points),
                       measured_field("plan_time_ns", &P::plan_time_ns),
                       field("pixel_count", &P::pixel_count),
                       field("pixels", &P::pixels, &P::pixel_count)};

@@ -6,8 +6,8 @@
 #include <sys/mman.h>
 
 #include <cerrno>
-#include <cstring>
 #include <ctime>
+#include <system_error>
 #include <thread>
 
 #include "mid_level/base/clock.h"
@@ -43,7 +43,7 @@ void prefer_fifo(const TaskSpec& spec) noexcept {
 std::string set_up_realtime() {
   std::string missing;
   if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
-    missing = "memory cannot be locked (" + std::string{std::strerror(errno)} + ")";
+    missing = "memory cannot be locked (" + std::generic_category().message(errno) + ")";
   }
   sched_param param{};
   param.sched_priority = 1;

@@ -2,154 +2,13 @@
 // Two real processes over shared memory, and what happens when one of them is killed. Judged on
 // publication stamps, never on how long this test takes.
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <nlohmann/json.hpp>
-#include <random>
-#include <thread>
 
-#include "deploy/cli/run/child_process.h"
-#include "deploy/cli/run/settings.h"
-#include "mid_level/base/clock.h"
-#include "mid_level/blackboard/segment.h"
-#include "tests/support/catch.h"
+#include "tests/system/boat.h"
 
 using namespace lodesman;
-using namespace lodesman::cli;
-using std::chrono::milliseconds;
-using std::chrono::seconds;
-namespace fs = std::filesystem;
-
-namespace {
-
-// A directory of its own for each test, gone with it.
-class Scratch {
- public:
-  explicit Scratch(const std::string& name)
-      : directory_{fs::temp_directory_path() /
-                   ("lodesman-test-" + name + "-" + std::to_string(getpid()))} {
-    fs::create_directories(directory_);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  ~Scratch() { fs::remove_all(directory_); }
-  [[nodiscard]] fs::path file(const std::string& name, const std::string& text = "") const {
-    if (!text.empty()) {
-      std::ofstream{directory_ / name} << text;
-    }
-    return directory_ / name;
-  }
-
- private:
-  fs::path directory_;
-};
-
-// A goal that is far enough to be under way while things die.
-std::string scenario_text(double goal_y_m) {
-  return "name = \"short\"\nseed = 1\ntime_limit_s = 120.0\n[mission]\nstart_m = [0.0, 0.0]\n"
-         "start_heading_deg = 0.0\ngoal_m = [0.0, " +
-         std::to_string(goal_y_m) +
-         "]\ngoal_radius_m = 0.5\n[vehicle]\nspeed_m_s = 0.74\nradius_m = 0.5\n";
-}
-
-template <class Condition>
-bool eventually(Condition condition, Duration patience = seconds{20}) {
-  const SteadyClock clock;
-  const Time deadline = clock.now() + patience;
-  while (!condition()) {
-    if (clock.now() >= deadline) {
-      return false;
-    }
-    std::this_thread::sleep_for(milliseconds{2});
-  }
-  return true;
-}
-
-// A child of a process by its program's name; 0 when there is none.
-pid_t child_of(pid_t parent, const std::string& program) {
-  const std::string id = std::to_string(parent);
-  std::ifstream children{"/proc/" + id + "/task/" + id + "/children"};
-  for (pid_t child = 0; children >> child;) {
-    std::string name;
-    std::ifstream{"/proc/" + std::to_string(child) + "/comm"} >> name;
-    if (name == program) {
-      return child;
-    }
-  }
-  return 0;
-}
-
-bool any_segment_of(pid_t launcher) {
-  return fs::exists("/dev/shm/lodesman-sim-" + std::to_string(launcher));
-}
-
-// Both programs on a segment of this test's own.
-struct Boat {
-  explicit Boat(const Scratch& scratch)
-      : segment{"lodesman-test-boat-" + std::to_string(getpid())} {
-    CommonOptions options;
-    options.sets = {"command_socket.port = 0"};
-    const auto config = scratch.file("config.toml", load_configuration("paper", options).to_text());
-    const auto scenario = scratch.file("scenario.toml", scenario_text(25.0));
-    arguments = {"--segment",     segment,      "--config",
-                 config.string(), "--scenario", scenario.string()};
-    start_low();
-    start_high();
-  }
-  ~Boat() {
-    high.reset();
-    low.reset();
-    remove_dead_segment(segment);
-  }
-  void start_low() { low = std::make_unique<ChildProcess>("lodesman-low", arguments); }
-  void start_high() {
-    auto with_start = arguments;
-    with_start.push_back("--start");
-    high = std::make_unique<ChildProcess>("lodesman-high", with_start);
-  }
-
-  std::string segment;
-  std::vector<std::string> arguments;
-  std::unique_ptr<ChildProcess> low;
-  std::unique_ptr<ChildProcess> high;
-};
-
-bool drives(const Stamped<ThrustApplied>* thrust) {
-  return thrust != nullptr && thrust->value.reason == ThrustReason::kCommanded &&
-         thrust->value.left > 128;
-}
-
-// Kills the high level after a random while under way. Gives how long after its last command the
-// thrusters were neutral, by the stamps of what was published.
-double neutral_after_kill_s(Boat& boat, std::mt19937& random) {
-  const auto board = SharedBlackboard::observe(boat.segment, seconds{20});
-  Reader<ThrustApplied> thrust{board->thrust_applied};
-  Reader<HelmCommand> helm{board->helm_command};
-  REQUIRE(eventually([&] { return drives(thrust.latest()); }));
-  std::this_thread::sleep_for(milliseconds{random() % 300});
-  REQUIRE(kill(boat.high->pid(), SIGKILL) == 0);
-  REQUIRE(eventually([&] { return boat.high->ended().has_value(); }));
-  const Time last_command = helm.latest()->stamp;
-  const Stamped<ThrustApplied>* neutral = nullptr;
-  REQUIRE(eventually([&] {
-    const auto* newest = thrust.next();
-    const bool found = newest != nullptr && newest->stamp > last_command &&
-                       newest->value.reason == ThrustReason::kStaleCommand;
-    neutral = found ? newest : nullptr;
-    return found;
-  }));
-  CHECK(int{neutral->value.left} == 128);
-  CHECK(int{neutral->value.right} == 128);
-  CHECK_FALSE(boat.low->ended().has_value());
-  return to_seconds(neutral->stamp - last_command);
-}
-
-}  // namespace
+using namespace lodesman::testing;
 
 TEST_CASE(
     "processes: a killed high level leaves the thrusters neutral within 0.5 s, and its "
@@ -264,18 +123,21 @@ TEST_CASE("processes: an interrupt ends a run cleanly, with a result", "[system]
   CHECK_FALSE(any_segment_of(launcher.pid()));
 }
 
-// Not part of a usual run: fifty kills of the high level, as a table.
-TEST_CASE("processes: fifty random kills of the high level", "[.campaign]") {
-  const Scratch scratch{"campaign"};
-  Boat boat{scratch};
-  std::mt19937 random{static_cast<unsigned>(SteadyClock{}.now().time_since_epoch().count())};
-  std::vector<double> neutral_s;
-  for (int i = 0; i < 50; ++i) {
-    neutral_s.push_back(neutral_after_kill_s(boat, random));
-    boat.start_high();
+TEST_CASE("processes: a segment of another build is refused by everyone who opens it", "[system]") {
+  const std::string segment = "lodesman-test-other-" + std::to_string(getpid());
+  const auto low = SharedBlackboard::create(segment);
+  {
+    // The layout's number is the second word of the header.
+    std::fstream bytes{"/dev/shm/" + segment, std::ios::in | std::ios::out | std::ios::binary};
+    bytes.seekp(offsetof(SegmentHeader, layout_hash));
+    const std::uint64_t other = layout_hash() + 1;
+    bytes.write(reinterpret_cast<const char*>(&other), sizeof other);
   }
-  std::sort(neutral_s.begin(), neutral_s.end());
-  std::cout << "neutral after a killed lodesman-high, of 50: median " << neutral_s[25]
-            << " s, worst " << neutral_s.back() << " s\n";
-  CHECK(neutral_s.back() <= 0.5);
+  const std::string refusal =
+      "segment " + segment + " was made by a build with another layout; use programs of one build";
+  CHECK_THROWS_WITH(SharedBlackboard::open(segment, Role::kHigh, Duration::zero()), refusal);
+  CHECK_THROWS_WITH(SharedBlackboard::observe(segment, Duration::zero()), refusal);
+  ChildProcess watch{"lodesman", {"watch", "--segment", segment, "--once"}};
+  REQUIRE(eventually([&] { return watch.ended().has_value(); }));
+  CHECK(*watch.ended() == "exit status 2");
 }

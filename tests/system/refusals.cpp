@@ -14,50 +14,19 @@
 #include <vector>
 
 #include "tests/support/catch.h"
+#include "tests/support/good_scenario.h"
 
 namespace lodesman {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kGood = R"(name = "good"
-seed = 1
-time_limit_s = 200.0
-[mission]
-start_m = [0.0, 0.0]
-start_heading_deg = 0.0
-goal_m = [0.0, 20.0]
-goal_radius_m = 0.5
-[vehicle]
-speed_m_s = 0.22
-radius_m = 0.5
-[[obstacle]]
-shape = "circle"
-centre_m = [0.0, 10.0]
-radius_m = 0.5
-protection_m = 3.5
-velocity_m_s = [0.0, -0.11]
-stop_at_m = [0.0, 0.0]
-[[obstacle]]
-shape = "ellipse"
-centre_m = [3.0, 14.0]
-semi_axes_m = [1.5, 0.4]
-angle_deg = 30.0
-protection_semi_axes_m = [4.0, 2.0]
-[sonar]
-beams = 120
-[[fault]]
-device = "ahrs"
-kind = "stall"
-at_s = 20.0
-duration_s = 5.0
-)";
+using testing::kGoodScenario;
 
 [[nodiscard]] std::string replaced(const std::string& old, const std::string& by) {
-  const auto place = kGood.find(old);
-  REQUIRE(place != std::string::npos);
-  std::string text = kGood;
-  return text.replace(place, old.size(), by);
+  std::string text = testing::replaced(kGoodScenario, old, by);
+  REQUIRE_FALSE(text.empty());
+  return text;
 }
 
 [[nodiscard]] std::string repeated(const std::string& part, std::size_t times) {
@@ -169,9 +138,9 @@ void check_scenarios(const std::vector<ScenarioRow>& rows) {
 TEST_CASE("refusals: sim refuses a bad scenario with one line and writes nothing",
           "[system][refusals]") {
   check_scenarios({
-      {replaced("name = \"good\"\n", ""), "1: name: missing"},
-      {replaced("\"good\"", "\"../good\""), "1: name: "},
-      {replaced("\"good\"", "3"), "1: name: must be a text"},
+      {replaced("name = \"a-good.one\"\n", ""), "1: name: missing"},
+      {replaced("\"a-good.one\"", "\"../good\""), "1: name: "},
+      {replaced("\"a-good.one\"", "3"), "1: name: must be a text"},
       {replaced("seed = 1", "seed = -1"), "2: seed: "},
       {replaced("seed = 1", "seed = 1.5"), "2: seed: "},
       {replaced("seed = 1", "seed = 1\nseed = 2"), "3: toml: "},
@@ -202,18 +171,18 @@ TEST_CASE("refusals: sim refuses a bad scenario with one line and writes nothing
       {replaced("protection_m = 3.5", "protection_m = 0.1"), "16: obstacle\\[0\\]\\.protection_m"},
       {replaced("stop_at_m = [0.0, 0.0]", "stop_at_m = [3.0, 0.0]"), "18: obstacle"},
       {replaced("velocity_m_s = [0.0, -0.11]\n", ""), "17: obstacle\\[0\\]\\.stop_at_m: "},
-      {replaced("[1.5, 0.4]", "[1.5, 0.0]"), "22: obstacle\\[1\\]\\.semi_axes_m: "},
-      {replaced("[4.0, 2.0]", "[1.0, 2.0]"), "24: obstacle\\[1\\]\\.protection_semi_axes_m: "},
+      {replaced("[1.5, 0.4]", "[1.5, 0.0]"), "24: obstacle\\[1\\]\\.semi_axes_m: "},
+      {replaced("[4.0, 2.0]", "[1.0, 2.0]"), "26: obstacle\\[1\\]\\.protection_semi_axes_m: "},
       {replaced("angle_deg = 30.0", "angle_rad = 0.5"), "[0-9]+: obstacle\\[1\\]\\.angle_"},
-      {replaced("beams = 120", "beams = 100000"), "26: sonar\\.beams: "},
-      {replaced("beams = 120", "beams = 12.5"), "26: sonar\\.beams: "},
-      {replaced("beams = 120", "ping_hz = 0.0"), "26: sonar\\.ping_hz: "},
-      {replaced("beams = 120", "noise = \"loud\""), "26: sonar\\.noise: "},
-      {replaced("[sonar]", "[radar]"), "25: radar: unknown key"},
-      {replaced("\"ahrs\"", "\"rudder\""), "28: fault\\[0\\]\\.device: "},
-      {replaced("\"stall\"", "\"explode\""), "29: fault\\[0\\]\\.kind: "},
-      {replaced("duration_s = 5.0", "duration_s = -5.0"), "31: fault\\[0\\]\\.duration_s: "},
-      {replaced("at_s = 20.0\n", ""), "27: fault\\[0\\]\\.at_s: missing"},
+      {replaced("beams = 240", "beams = 100000"), "43: sonar\\.beams: "},
+      {replaced("beams = 240", "beams = 12.5"), "43: sonar\\.beams: "},
+      {replaced("ping_hz = 5.0", "ping_hz = 0.0"), "45: sonar\\.ping_hz: "},
+      {replaced("\"none\"", "\"loud\""), "40: sonar\\.noise: "},
+      {replaced("[sonar]", "[radar]"), "38: radar: unknown key"},
+      {replaced("\"thruster\"", "\"rudder\""), "47: fault\\[0\\]\\.device: "},
+      {replaced("\"disconnect\"", "\"explode\""), "48: fault\\[0\\]\\.kind: "},
+      {replaced("duration_s = 5.0", "duration_s = -5.0"), "50: fault\\[0\\]\\.duration_s: "},
+      {replaced("at_s = 20.0\n", ""), "46: fault\\[0\\]\\.at_s: missing"},
   });
 }
 
@@ -225,10 +194,10 @@ TEST_CASE("refusals: sim refuses hostile files as it does bad ones", "[system][r
   check_scenarios({
       {"", "1: name: missing"},
       {repeated("#", 2U << 20U), "1: file: is larger than 1 MiB"},
-      {"\0"s + kGood, "1: toml: "},
-      {kGood + "# \0\n"s, "32: toml: "},
-      {"\xff\xfe" + kGood, "1: toml: "},
-      {kGood + "# \xc3\x28\n", "32: toml: "},
+      {"\0"s + kGoodScenario, "1: toml: "},
+      {kGoodScenario + "# \0\n"s, "51: toml: "},
+      {"\xff\xfe" + kGoodScenario, "1: toml: "},
+      {kGoodScenario + "# \xc3\x28\n", "51: toml: "},
       {"\x7f"
        "ELF\x02\x01\x01",
        "1: toml: "},
@@ -237,15 +206,16 @@ TEST_CASE("refusals: sim refuses hostile files as it does bad ones", "[system][r
       {"[" + repeated("a.", 100'000) + "a]", "1: toml: "},
       {repeated("a.", 100'000) + "a = 1", "1: toml: "},
       {repeated("\"\" . ", 100'000) + "a = 1", "1: toml: "},
-      {"x = [" + repeated("1,", 400'000) + "]\n" + kGood, "1: x: unknown key"},
-      {kGood + repeated(obstacle, 100), "[0-9]+: obstacle: must be at most 64"},
+      {repeated("\",\" . ", 150'000) + "a = 1", "1: toml: "},
+      {"x = [" + repeated("1,", 400'000) + "]\n" + kGoodScenario, "1: x: unknown key"},
+      {kGoodScenario + repeated(obstacle, 100), "[0-9]+: obstacle: must be at most 64"},
       {replaced("goal_m =", "waypoints_m = [" + repeated("[0.0, 1.0],", 50'000) + "]\ngoal_m ="),
        "7: mission\\.waypoints_m: "},
-      {"\"a\\nb\" = 1\n" + kGood, "1: a\\?b: unknown key"},
-      {"\"a\\u001b[2J\" = 1\n" + kGood, "1: a\\?"},
-      {repeated("k", 500'000) + " = 1\n" + kGood, "1: kkk"},
-      {replaced("\"good\"", "\"" + repeated("x", 500'000) + "\""), "1: name: "},
-      {replaced("\"good\"", "\"go\nod\""), "1: toml: "},
+      {"\"a\\nb\" = 1\n" + kGoodScenario, "1: a\\?b: unknown key"},
+      {"\"a\\u001b[2J\" = 1\n" + kGoodScenario, "1: a\\?"},
+      {repeated("k", 500'000) + " = 1\n" + kGoodScenario, "1: kkk"},
+      {replaced("\"a-good.one\"", "\"" + repeated("x", 500'000) + "\""), "1: name: "},
+      {replaced("\"a-good.one\"", "\"go\nod\""), "1: toml: "},
       {replaced("seed = 1", "seed = 99999999999999999999"), "2: toml: "},
       {"<html>", "1: toml: "},
   });
@@ -273,6 +243,13 @@ TEST_CASE("refusals: sim refuses bad options and configurations", "[system][refu
       {{"--set", "zones=1"}, "^--set:1: zones", ""},
       {{"--set", "zones.margin_m=1\nzones.hull_radius_m=1"}, "^--set:1: .*: must be", ""},
       {{"--set", "zones.source=\"mine\""}, "^--set:1: zones.source: must be one of", ""},
+      {{"--set", "zones.slow_share=1.5"}, "^--set:1: zones.slow_share: must be", ""},
+      {{"--set", "planner.space=\"moon\""}, "^--set:1: planner.space: must be one of", ""},
+      {{"--set", "pilot.narrow_speed_share=0"}, "^--set:1: pilot.narrow_speed_share: ", ""},
+      {{"--set", "pilot.clearance=1"}, "^--set:1: pilot.clearance: unknown key", ""},
+      {{"--set", "vehicle.surge_time_s=0"}, "^--set:1: vehicle.surge_time_s: must be", ""},
+      {{"--set", "tracks.delay_s=2.5"}, "^--set:1: tracks.delay_s: must be", ""},
+      {{"--set", "tracks.dropout=1"}, "^--set:1: tracks.dropout: must be", ""},
       {{"--set", "command_socket.port=70000"}, "^--set:1: command_socket.port: ", ""},
       {{"--set", "devices.sonar=\"\""}, "^--set:1: devices.sonar: ", ""},
       {{"--set", "devices.sonar=\"sim\""}, "^--set:1: devices.sonar: .*known: sim", ""},
@@ -299,7 +276,7 @@ TEST_CASE("refusals: sim refuses bad options and configurations", "[system][refu
   for (const OptionRow& row : rows) {
     INFO(row.line << "\n" << row.overlay.substr(0, 100));
     Bench bench;
-    bench.write("s.toml", kGood);
+    bench.write("s.toml", kGoodScenario);
     if (!row.overlay.empty()) {
       bench.write("c.toml", row.overlay);
     }
@@ -315,7 +292,7 @@ TEST_CASE("refusals: sim refuses what is no readable file", "[system][refusals]"
     check_refused(bench, bench.run(LODESMAN_PROGRAM, simulation_of(name)), ": ");
   }
   Bench bench;
-  bench.write("s.toml", kGood);
+  bench.write("s.toml", kGoodScenario);
   bench.write("taken", "");
   check_refused(bench,
                 bench.run(LODESMAN_PROGRAM, {"sim", "s.toml", "--lockstep", "--out", "taken/out"}),
@@ -330,11 +307,11 @@ TEST_CASE("refusals: lodesman-low refuses before it makes a segment", "[system][
   };
   const std::string configuration = text_of(LODESMAN_CONFIGURATION);
   const std::vector<Row> rows{
-      {"", kGood, "^c.toml:1: [a-z_.]+: missing"},
-      {"[planner", kGood, "^c.toml:1: toml: "},
+      {"", kGoodScenario, "^c.toml:1: [a-z_.]+: missing"},
+      {"[planner", kGoodScenario, "^c.toml:1: toml: "},
       {configuration, "", "^s.toml:1: name: missing"},
       {configuration, replaced("seed = 1", "seed = -1"), "^s.toml:2: seed: "},
-      {configuration, replaced("beams = 120", "bans = 120"), "^s.toml:26: sonar.bans: unknown"},
+      {configuration, replaced("beams = 240", "bans = 240"), "^s.toml:43: sonar.bans: unknown"},
   };
   for (const Row& row : rows) {
     INFO(row.line);

@@ -56,6 +56,7 @@ constexpr std::string_view kClockHeader = "mid_level/base/clock.h";
       {"hal_sim/devices/",
        {"hal_sim/devices/", "hal_sim/world/", "drivers/hal/", "mid_level/blackboard/channel.h",
         "mid_level/messages/", "mid_level/base/"}},
+      {"hal_sim/campaign/", {"hal_sim/campaign/", "mid_level/base/"}},
       {"hal_sim/emulators/",
        {"hal_sim/emulators/", "hal_sim/world/", "drivers/hal/", "mid_level/blackboard/channel.h",
         "mid_level/messages/", "mid_level/base/"}},

@@ -98,6 +98,14 @@ Json plan_json(const PlanRecord& plan) {
   json["cost_10_14"] = plan.cost_10_14 ? Json(*plan.cost_10_14) : Json(nullptr);
   json["path_m"] = points(plan.path_m, kPlanDecimals);
   json["waypoint_source"] = plan.waypoint_source;
+  json["rung"] = plan.rung;
+  json["changed"] = plan.changed;
+  json["speed_share"] = number(plan.speed_share, kPlanDecimals);
+  json["course_deg"] = plan.course_deg ? number(*plan.course_deg, kPlanDecimals) : Json(nullptr);
+  json["obstacle"] = plan.cause != 0 ? Json(plan.cause) : Json(nullptr);
+  json["clearance_m"] = plan.clearance_m ? number(*plan.clearance_m, kPlanDecimals) : Json(nullptr);
+  json["clearance_after_s"] = number(plan.clearance_after_s, kPlanDecimals);
+  json["plan_age_s"] = number(plan.t_s - plan.captured_s, kPlanDecimals);
   json["waypoints_m"] = points(plan.waypoints_m, kPlanDecimals);
   json["expansions"] = plan.expansions;
   json["plan_time_us"] = number(plan.plan_time_us, kPlanDecimals);

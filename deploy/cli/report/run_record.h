@@ -45,8 +45,16 @@ struct PlanRecord {
   double start_heading_deg = 0.0;
   std::array<double, 2> goal_m{};  // [world]
   PathReason reason = PathReason::kNoPath;
-  std::string waypoint_source;    // "none", "current", "previous"
-  std::optional<int> cost_10_14;  // empty where no path was found
+  std::string waypoint_source;  // "none", "current", "previous"
+  // What the plan does and why; see PlanRung.
+  std::string rung;
+  double speed_share = 1.0;
+  bool changed = false;  // another side or another manoeuvre than before
+  std::uint32_t cause = 0;
+  std::optional<double> clearance_m;  // least one foreseen
+  double clearance_after_s = 0.0;
+  std::optional<double> course_deg;  // where it is steered by
+  std::optional<int> cost_10_14;     // empty where no path was found
   std::uint32_t expansions = 0;
   double plan_time_us = 0.0;                       // measured
   std::vector<std::array<double, 2>> path_m;       // [world] every pixel, start first

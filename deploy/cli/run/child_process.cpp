@@ -5,8 +5,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
-#include <cstring>
+#include <system_error>
 #include <thread>
 
 #include "mid_level/base/clock.h"
@@ -19,6 +20,10 @@ constexpr int kCannotRun = 127;
 
 // In the child, between fork and exec: nothing but system calls.
 [[noreturn]] void become(const char* path, char* const* arguments, pid_t parent) noexcept {
+  // What the parent does on these signals is not for this copy of it to do.
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+    std::signal(signal, SIG_DFL);
+  }
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) {
     _exit(kCannotRun);  // the parent died before the line above
@@ -38,11 +43,12 @@ ChildProcess::ChildProcess(const std::string& program, const std::vector<std::st
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
   const std::string path = (self.parent_path() / program).string();
   if (access(path.c_str(), X_OK) != 0) {
-    throw StartupError(path + " cannot be run: " + std::strerror(errno));
+    throw StartupError(path + " cannot be run: " + std::generic_category().message(errno));
   }
   std::vector<std::string> words{path};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (auto& word : words) {
     pointers.push_back(word.data());
   }
@@ -50,7 +56,7 @@ ChildProcess::ChildProcess(const std::string& program, const std::vector<std::st
   const pid_t parent = getpid();
   pid_ = fork();
   if (pid_ < 0) {
-    throw StartupError(program + " cannot be started: " + std::strerror(errno));
+    throw StartupError(program + " cannot be started: " + std::generic_category().message(errno));
   }
   if (pid_ == 0) {
     become(path.c_str(), pointers.data(), parent);

@@ -21,7 +21,6 @@ ProgressLine::ProgressLine(const Scenario& scenario, bool quiet)
     : name_{scenario.name},
       speed_m_s_{scenario.speed_m_s},
       whole_way_m_{(scenario.mission.goal.xy_m - scenario.mission.start.p_WV.xy_m).norm()},
-      time_limit_s_{scenario.time_limit_s},
       quiet_{quiet},
       terminal_{isatty(STDERR_FILENO) == 1},
       started_{SteadyClock{}.now()} {}
@@ -46,6 +45,14 @@ void ProgressLine::show(const RunProgress& progress) {
   } else {
     fmt::print(stderr, "{}\n", line(progress));
   }
+}
+
+void ProgressLine::say(const std::string& text) {
+  if (quiet_) {
+    return;
+  }
+  fmt::print(stderr, "{}{}\n", terminal_ ? "\r\x1b[K" : "", text);
+  line_open_ = false;
 }
 
 std::string ProgressLine::line(const RunProgress& progress) const {

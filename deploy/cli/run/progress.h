@@ -18,6 +18,8 @@ class ProgressLine {
   ~ProgressLine();  // leaves the cursor on a fresh line
 
   void show(const RunProgress& progress);
+  // A line of its own, which stays.
+  void say(const std::string& text);
 
  private:
   [[nodiscard]] std::string line(const RunProgress& progress) const;
@@ -25,7 +27,6 @@ class ProgressLine {
   std::string name_;
   double speed_m_s_;
   double whole_way_m_;
-  double time_limit_s_;
   bool quiet_;
   bool terminal_;
   bool line_open_ = false;

@@ -4,11 +4,15 @@
 #include <array>
 #include <cstdlib>
 
+#include "hal_sim/campaign/encounter.h"
+
 namespace lodesman::cli {
 namespace fs = std::filesystem;
 
 fs::path share_directory() {
-  if (const char* named = std::getenv("LODESMAN_SHARE"); named != nullptr && *named != '\0') {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody writes it
+  const char* named = std::getenv("LODESMAN_SHARE");
+  if (named != nullptr && *named != '\0') {
     return named;
   }
   std::error_code error;
@@ -62,12 +66,18 @@ fs::path scenario_file(const std::string& name_or_path) {
 VesselParameters load_vessel_parameters() { return load_vessel(config_file("vessel.toml")); }
 
 Scenario load_named_scenario(const std::string& name_or_path) {
+  if (const auto number = encounter_number(name_or_path)) {
+    return read_scenario(TomlDocument::from_text(encounter_scenario(*number), name_or_path),
+                         load_vessel_parameters());
+  }
   return load_scenario(scenario_file(name_or_path), load_vessel_parameters());
 }
 
 LowLevelOptions low_level_options(const TomlDocument& configuration, const Scenario& scenario) {
   LowLevelOptions options = read_low_level_options(configuration.root());
   options.sonar_range_m = scenario.sonar.range_m;
+  options.delta_t.track_oracle.sector_rad = scenario.sonar.sector_rad;
+  options.delta_t.track_oracle.seed = scenario.seed;
   if (scenario.sonar.scene == SonarScene::kObstacles) {
     options.delta_t.known_scene = scenario.obstacles;
   }
@@ -86,6 +96,12 @@ HighLevelOptions high_level_options(const TomlDocument& configuration, const Sce
   mission.goals.push_back(scenario.mission.goal);
   mission.goal_radius_m = scenario.mission.goal_radius_m;
   options.controller.surge_ref = scenario.surge_ref;
+  if (auto& pilot = options.planner.replanner.pilot; pilot) {
+    pilot->response.speed_max_m_s =
+        scenario.surge_ref * options.estimator.dead_reckoning.speed_per_surge_ref_m_s;
+    pilot->response.look_ahead_m += options.controller.look_ahead_s * pilot->response.speed_max_m_s;
+    options.controller.look_ahead_m = pilot->response.look_ahead_m;
+  }
   return options;
 }
 

@@ -207,6 +207,17 @@ PlanRecord RunWatcher::describe(const Stamped<Plan>& published, const SonarPath*
   record.goal_m = {plan.goal_x_m, plan.goal_y_m};
   record.reason = plan.reason;
   record.waypoint_source = to_string(plan.source);
+  record.rung = to_string(plan.rung);
+  record.speed_share = plan.speed_share;
+  record.changed = plan.changed;
+  record.cause = plan.cause;
+  record.clearance_after_s = plan.clearance_after_s;
+  if (plan.steer_by != SteerBy::kWaypoints && std::isfinite(plan.clearance_m)) {
+    record.clearance_m = plan.clearance_m;
+  }
+  if (plan.steer_by == SteerBy::kCourse) {
+    record.course_deg = compass_deg(plan.course_rad);
+  }
   for (std::uint32_t i = 0; i < plan.waypoint_count; ++i) {
     record.waypoints_m.push_back({plan.waypoints[i].x_m, plan.waypoints[i].y_m});
   }
@@ -215,6 +226,10 @@ PlanRecord RunWatcher::describe(const Stamped<Plan>& published, const SonarPath*
   }
   record.expansions = path->expansions;
   record.plan_time_us = path->plan_time_ns / 1e3;
+  if (plan.steer_by != SteerBy::kWaypoints) {
+    record.path_m = record.waypoints_m;  // in the world the line itself is followed
+    return record;
+  }
   if (path->reason == PathReason::kFound) {
     record.cost_10_14 = path->cost_10_14;
   }

@@ -59,8 +59,8 @@ class BoardWatch {
 
  private:
   struct Look {
-    Time at;
-    std::uint64_t sequence;
+    Time at{};
+    std::uint64_t sequence = 0;
   };
   // What has been seen of a channel; `drain` takes in what is new, whatever its type.
   struct ChannelSeen {

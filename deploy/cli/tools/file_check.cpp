@@ -8,8 +8,15 @@ namespace {
 
 [[nodiscard]] bool is_scenario(const TomlTable& root) {
   // The others are a scenario's too, and a configuration's never: a scenario that lacks [mission]
-  // should be told so, not that it has unknown keys.
-  return root.has("mission") || root.has("vehicle") || root.has("obstacle");
+  // should be told so, not that it has unknown keys. Both have a [vehicle], with other keys.
+  if (root.has("mission") || root.has("obstacle")) {
+    return true;
+  }
+  if (!root.has("vehicle")) {
+    return false;
+  }
+  const TomlTable vehicle = root.table("vehicle");
+  return vehicle.has("surge_ref") || vehicle.has("speed_m_s") || vehicle.has("radius_m");
 }
 
 void check(const std::string& file, const CommonOptions& common, std::string& kind) {

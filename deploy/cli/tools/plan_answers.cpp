@@ -81,16 +81,20 @@ Json PlanAnswer::to_json() const {
   for (const MapCell& cell : path) {
     pixels.push_back({cell.column, cell.row});
   }
-  return {{"id", id},
-          {"found", found},
-          {"reason", to_string(reason)},
-          {"cost", found ? Json(cost) : Json(nullptr)},
-          {"cost_10_14", found ? Json(cost_10_14) : Json(nullptr)},
-          {"path_px", std::move(pixels)},
-          {"free_px", free_px},
-          {"expansions", expansions},
-          {"us", us},
-          {"search_us", search_us}};
+  Json line = {{"id", id},
+               {"found", found},
+               {"reason", to_string(reason)},
+               {"cost", found ? Json(cost) : Json(nullptr)},
+               {"cost_10_14", found ? Json(cost_10_14) : Json(nullptr)},
+               {"path_px", std::move(pixels)},
+               {"free_px", free_px},
+               {"expansions", expansions},
+               {"us", us},
+               {"search_us", search_us}};
+  if (!any_angle.is_null()) {
+    line["any_angle"] = any_angle;
+  }
+  return line;
 }
 
 FramePlanner::FramePlanner(MapCosts costs, Geometry geometry)

@@ -32,6 +32,7 @@ struct PlanAnswer {
   // Whether this is what the file says is right; nothing where it does not say, or speaks of
   // other costs.
   std::optional<bool> agrees;
+  nlohmann::ordered_json any_angle;  // the path of any direction; null where not asked for
 
   [[nodiscard]] nlohmann::ordered_json to_json() const;
 };

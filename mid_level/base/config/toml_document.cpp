@@ -8,6 +8,8 @@
 #include <set>
 #include <sstream>
 
+#include "mid_level/base/config/toml_hazard.h"
+
 namespace lodesman {
 
 struct TomlDocument::Impl {
@@ -25,29 +27,6 @@ namespace {
 
 [[nodiscard]] std::size_t line_of(const toml::node& node) {
   return node.source().begin.line == 0 ? 1 : node.source().begin.line;
-}
-
-// toml++ bounds the depth of values and not that of dotted keys, and frees tables by recursion: a
-// key of a hundred thousand parts would overflow the stack. Gives the line of the first key with
-// too many parts; 0 where there is none. Consecutive dots are no key.
-[[nodiscard]] std::size_t line_of_deep_key(std::string_view text) {
-  constexpr int kMaxParts = 16;
-  int dots = 0;
-  std::size_t line = 1;
-  char last = ' ';
-  for (const char c : text) {
-    if (c == '.' && last != '.') {
-      ++dots;
-    } else if (std::string_view{".=,\n[]{}#"}.find(c) != std::string_view::npos) {
-      dots = 0;
-    }
-    if (dots >= kMaxParts) {
-      return line;
-    }
-    line += c == '\n' ? 1 : 0;
-    last = c;
-  }
-  return 0;
 }
 
 [[noreturn]] void refuse_node(const toml::node& node, const TomlDocument::Impl& document,
@@ -163,8 +142,8 @@ TomlDocument TomlDocument::from_text(std::string_view text, const std::string& n
   if (text.size() > kMaxBytes) {
     throw StartupError(name, 1, "file", "is larger than 1 MiB");
   }
-  if (const std::size_t line = line_of_deep_key(text); line != 0) {
-    throw StartupError(name, line, "toml", "a key of too many parts");
+  if (const auto hazard = hazard_of(text)) {
+    throw StartupError(name, hazard->line, "toml", std::string{hazard->reason});
   }
   auto impl = std::make_unique<Impl>();
   impl->name = name;
@@ -185,8 +164,12 @@ TomlTable TomlDocument::root() const { return {*impl_, &impl_->table, ""}; }
 void TomlDocument::require_all_keys_read() const { require_read(impl_->table, *impl_, ""); }
 
 std::string TomlDocument::to_text() const {
+  // Literal texts are written wrongly by toml++ 3.3 where they hold quotes and a line end.
+  constexpr auto kFlags =
+      toml::toml_formatter::default_flags &
+      ~(toml::format_flags::allow_literal_strings | toml::format_flags::allow_multi_line_strings);
   std::ostringstream text;
-  text << impl_->table << "\n";
+  text << toml::toml_formatter{impl_->table, kFlags} << "\n";
   return text.str();
 }
 

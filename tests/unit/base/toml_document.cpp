@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mid_level/base/config/toml_document.h"
 
+#include <algorithm>
 #include <functional>
 
 #include "tests/support/catch.h"
@@ -105,6 +106,56 @@ TEST_CASE("toml: an overlay changes values, keeps their lines, and adds no keys"
         }) == "over.toml:3: b.number: must be at least 0 and at most 5");
   CHECK(refusal_of([&] { document.overlay(TomlDocument::from_text("b.new = 1", "--set")); }) ==
         "--set:1: b.new: unknown key");
+}
+
+TEST_CASE("toml: a key of too many parts is refused, whatever its parts hold",
+          "[mid_level][config]") {
+  for (const std::string part : {"a", "\"\"", "'.'", "\",\"", "'='", "\"\\\"#\"", "'[' "}) {
+    std::string key = part;
+    for (int parts = 1; parts < 16; ++parts) {
+      key += "." + part;
+    }
+    // What comes before it must not hide it.
+    for (const std::string before :
+         {"y = {", "x = [\"\"\"a\"\"\"\", {", "x = ['''\n''''', {", "x = \"\\\"\" # '\ny = {"}) {
+      INFO(before << key);
+      const auto line = std::to_string(1 + std::count(before.begin(), before.end(), '\n'));
+      CHECK(refusal_of([&] {
+              (void)TomlDocument::from_text(before + key + ".a = 1}", "k.toml");
+            }) == "k.toml:" + line + ": toml: a key of too many parts");
+      CHECK(refusal_of([&] {
+              (void)TomlDocument::from_text(before + key + " = 1}", "k.toml");
+            }).find("too many parts") == std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("toml: dots in comments and texts are no key's", "[mid_level][config]") {
+  const std::string dots = "a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q.r";
+  const auto document = TomlDocument::from_text(
+      "x = \"" + dots + "\" # " + dots + "\ny = '" + dots + "'\nz = \"\"\"\n" + dots + "\"\"\"\n",
+      "d.toml");
+  for (const char* key : {"x", "y", "z"}) {
+    CHECK(document.root().text(key, 99) == dots);
+  }
+}
+
+TEST_CASE("toml: letters beyond ASCII stand in texts and comments only", "[mid_level][config]") {
+  const auto document = TomlDocument::from_text("\xef\xbb\xbfx = \"\u00e9\" # \u00e9\n", "l.toml");
+  CHECK(document.root().text("x", 9) == "\u00e9");
+  for (const char* text : {"a = 1\n\u00e9 = 1", "a = 1\n\u00a0b = 1", "a = 1\nb = \u00e9"}) {
+    CHECK(refusal_of([&] { (void)TomlDocument::from_text(text, "l.toml"); }) ==
+          "l.toml:2: toml: only texts and comments may hold other letters than ASCII's");
+  }
+}
+
+TEST_CASE("toml: a document written out is read the same, whatever its texts hold",
+          "[mid_level][config]") {
+  const auto document = TomlDocument::from_text(
+      "x = \"a'''b\\n\\\"\\\\\\u0001\\u007f\\u00e9\"\ny = -0.1\nz = 1.0\n", "w.toml");
+  const auto again = TomlDocument::from_text(document.to_text(), "again.toml");
+  CHECK(again.root().text("x", 99) == "a'''b\n\"\\\x01\x7f\u00e9");
+  CHECK(again.to_text() == document.to_text());
 }
 
 TEST_CASE("toml: what cannot be parsed is refused with its line", "[mid_level][config]") {

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <memory>
@@ -114,4 +115,47 @@ TEST_CASE("segment: a header that does not fit is refused with the reason",
         "was made by a build with another layout; use programs of one build");
   header.layout_hash.store(layout_hash());
   CHECK(header_fault(header, 4096) == "has the wrong size");
+}
+
+TEST_CASE("segment: a process killed while it publishes leaves nothing torn",
+          "[mid_level][blackboard]") {
+  const auto name = own_name("torn");
+  auto low = SharedBlackboard::create(name);
+  Reader<SonarPath> reader{low->sonar_path};
+  std::uint64_t last = 0;
+  const auto look = [&] {
+    const auto* got = reader.latest();
+    REQUIRE(got != nullptr);
+    const auto wanted = static_cast<std::int16_t>(got->value.request % 30000);
+    const auto& pixels = got->value.pixels;
+    REQUIRE(std::all_of(pixels.begin(), pixels.end(),
+                        [&](const PathPixel& pixel) { return pixel.column == wanted; }));
+    REQUIRE(got->sequence >= last);
+    last = got->sequence;
+  };
+  for (unsigned round = 0; round < 50; ++round) {
+    const pid_t child = fork();
+    if (child == 0) {
+      // A path as long as they get, every pixel with the number of the request.
+      auto path = std::make_unique<SonarPath>();
+      path->pixel_count = kMaxPathPixels;
+      auto& channel = low.writable().sonar_path;
+      channel.release_claim_of(Role::kHigh);
+      Writer<SonarPath> writer{channel, Role::kHigh, "sonar_path"};
+      for (;;) {
+        path->request = writer.sequence() + 1;
+        path->pixels.fill({static_cast<std::int16_t>(path->request % 30000), 0});
+        writer.publish(*path, Time{Duration{1}});
+      }
+    }
+    // Killed in the middle of a later publication, wherever that is.
+    const std::uint64_t before = reader.newest_sequence();
+    while (reader.newest_sequence() < before + 2 + round % 7) {
+    }
+    look();
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    look();
+  }
+  CHECK(last >= 100);
 }

@@ -42,6 +42,8 @@ TEST_CASE("check: a wrong file is refused by line and key", "[cli]") {
   REQUIRE(refused("[zones]\n\nmargin = 1.0\n", "configuration") == "3: zones.margin: unknown key");
   REQUIRE(refused("[zones]\nmargin_m = 'x'\n", "configuration") ==
           "2: zones.margin_m: must be a number");
+  REQUIRE(refused("[vehicle]\nhull_beam_m = 'x'\n", "configuration") ==
+          "2: vehicle.hull_beam_m: must be a number");
   REQUIRE(refused("[mission]\nstart_m = [0.0, 0.0]\n", "scenario").find(": missing") !=
           std::string::npos);
   REQUIRE(refused("[vehicle]\nsurge_ref = 16\n", "scenario").find(": missing") !=

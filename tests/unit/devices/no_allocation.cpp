@@ -1,37 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // World and devices in their steps: whole seconds of them take nothing from the heap.
-#include <atomic>
-#include <cstdlib>
 #include <memory>
-#include <new>
 
 #include "hal_sim/devices/sim_heading_sensor.h"
 #include "hal_sim/devices/sim_position_sensor.h"
 #include "hal_sim/devices/sim_sonar.h"
 #include "hal_sim/devices/sim_thruster_pair.h"
 #include "hal_sim/world/world_task.h"
+#include "tests/support/allocations.h"
 #include "tests/support/catch.h"
-
-namespace {
-
-std::atomic<std::size_t> allocations{0};
-
-}  // namespace
-
-// All single-object forms together: one that is not replaced could meet another one's delete.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  return std::malloc(size == 0 ? 1 : size);
-}
-void* operator new(std::size_t size) {
-  if (void* memory = operator new(size, std::nothrow)) {
-    return memory;
-  }
-  throw std::bad_alloc{};
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
 
 namespace lodesman {
 namespace {
@@ -68,7 +45,7 @@ TEST_CASE("world and simulated devices allocate nothing once made", "[hal_sim][d
   mission.publish({MissionState::kUnderWay, now, {}, 0, 0.0, 0.0}, now);
   bool taken = true;
   int fresh = 0;
-  const std::size_t before = allocations.load();
+  const testing::AllocationScope scope;
   for (int i = 0; i < 150; ++i) {
     now += std::chrono::milliseconds{20};
     world.step(now);
@@ -77,8 +54,8 @@ TEST_CASE("world and simulated devices allocate nothing once made", "[hal_sim][d
     fresh += sonar.poll(now, *ping) == ReadStatus::kFresh ? 1 : 0;
     taken = box.command({200, 180}, now) && taken;
   }
-  const std::size_t after = allocations.load();
-  CHECK(after == before);
+  const std::uint64_t allocations = scope.count();
+  CHECK(allocations == 0);
   CHECK(taken);
   CHECK(fresh == 150 + 15 + 25);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hal_sim/world/random_stream.h"
+#include "mid_level/base/random_stream.h"
 
 #include <cmath>
 

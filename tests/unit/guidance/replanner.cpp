@@ -5,6 +5,7 @@
 
 #include "mid_level/messages/sonar_view.h"
 #include "tests/support/catch.h"
+#include "tests/unit/guidance/support.h"
 
 using namespace lodesman;
 
@@ -13,7 +14,7 @@ namespace {
 Time s(double seconds) { return Time{from_seconds(seconds)}; }
 
 ReplannerOptions paper() {
-  return {from_seconds(1.6), from_seconds(0.5), from_seconds(3.6), 1.3, from_seconds(1e6)};
+  return {from_seconds(1.6), from_seconds(0.5), from_seconds(3.6), 1.3, from_seconds(1e6), {}};
 }
 
 // A boat that sails north at 1 m/s along x = 3, heading north, for 20 s.
@@ -90,13 +91,14 @@ TEST_CASE("replanner: it asks once a period, one question at a time, each frame 
   const WorldPoint goal{{3.0, 30.0}};
   const auto first = replanner.request(s(18.0), 1, s(18.0), goal, poses);
   REQUIRE(first);
+  const std::uint64_t first_id = first->id;  // the next request is written over it
   CHECK_FALSE(replanner.request(s(19.7), 2, s(19.6), goal, poses));  // no answer yet
   (void)replanner.answer(s(18.1), *found(*first), 30.0);
   CHECK_FALSE(replanner.request(s(19.5), 2, s(19.5), goal, poses));  // too early
   CHECK_FALSE(replanner.request(s(19.7), 1, s(18.0), goal, poses));  // planned in already
   const auto second = replanner.request(s(19.65), 2, s(19.6), goal, poses);
   REQUIRE(second);
-  CHECK(second->id == first->id + 1);
+  CHECK(second->id == first_id + 1);
 }
 
 TEST_CASE("replanner: without a path the previous waypoints stand (step 12.4)",
@@ -175,4 +177,46 @@ TEST_CASE("replanner: without any answer for too long nothing is followed, whate
   const auto again = replanner.request(s(19.7), 3, s(19.6), {{3.0, 20.0}}, poses);
   REQUIRE(again);
   CHECK(replanner.answer(s(19.8), *found(*again), 30.0)->source == WaypointSource::kCurrent);
+}
+
+TEST_CASE("replanner: in the world it asks once a frame, from tracks, and follows the answer",
+          "[high_level][guidance]") {
+  ReplannerOptions options = paper();
+  options.replan_period = {};
+  options.pilot = PilotOptions{};
+  options.pilot->response = testing::default_response();
+  options.pilot->manoeuvres = testing::default_manoeuvres();
+  Replanner replanner{options, 8};
+  replanner.start(s(1.0));
+  Tracks tracks;
+  tracks.frame = 5;
+  tracks.captured = s(0.9);
+  VehicleState state;
+  state.valid_at = s(1.0);
+  const auto request = replanner.request(s(1.0), tracks, state, {{0.0, 20.0}});
+  REQUIRE(request != nullptr);
+  CHECK(request->id == 8);
+  CHECK(request->frame == 5);
+  CHECK(request->space == PathSpace::kWorld);
+  CHECK(replanner.request(s(1.05), tracks, state, {{0.0, 20.0}}) == nullptr);
+  auto path = refused(*request, PathReason::kFound);
+  path->points[0] = {0.0, 0.0};
+  path->points[1] = {0.0, 20.0};
+  path->point_count = 2;
+  const Plan* plan = replanner.answer(s(1.1), *path, tracks, state);
+  REQUIRE(plan != nullptr);
+  CHECK(plan->id == 8);
+  CHECK(plan->path_id == 8);
+  CHECK(plan->path_captured == s(0.9));
+  CHECK(plan->steer_by == SteerBy::kLine);
+  CHECK(plan->waypoint_count == 2);
+  CHECK(replanner.answer(s(1.15), *path, tracks, state) == nullptr);
+  CHECK(replanner.request(s(1.2), tracks, state, {{0.0, 20.0}}) == nullptr);  // the same frame
+  tracks.frame = 6;
+  CHECK(replanner.request(s(1.2), tracks, state, {{0.0, 20.0}}) != nullptr);
+}
+
+TEST_CASE("replanner: without a pilot it never asks in the world", "[high_level][guidance]") {
+  Replanner replanner{paper()};
+  CHECK(replanner.request(s(1.0), Tracks{}, VehicleState{}, {{0.0, 20.0}}) == nullptr);
 }

@@ -58,3 +58,20 @@ TEST_CASE("waypoint tracker: the ahead waypoint is the first neither reached nor
   CHECK(tracker.update(line, 1, {{0, 9}}) == 2);      // the goal is never passed
   CHECK(tracker.update(line, 2, {{0, 0}}) == 0);      // a new path starts anew
 }
+
+TEST_CASE("steering point: it runs ahead along the line, round its corners, to its end",
+          "[high_level][guidance]") {
+  const std::vector<Waypoint> line{{0, 0}, {0, 10}, {10, 10}};
+  const SteeringPoint ahead = point_to_steer_for(line, {{1.0, 4.0}}, 2.0);
+  CHECK(ahead.point.xy_m.x() == Approx(0.0).margin(1e-12));
+  CHECK(ahead.point.xy_m.y() == Approx(6.0));
+  CHECK(ahead.waypoint == 1);
+  CHECK_FALSE(ahead.is_end);
+  const SteeringPoint round_the_corner = point_to_steer_for(line, {{0.0, 9.0}}, 3.0);
+  CHECK(round_the_corner.point.xy_m.x() == Approx(2.0));
+  CHECK(round_the_corner.waypoint == 2);
+  const SteeringPoint end = point_to_steer_for(line, {{9.0, 11.0}}, 3.0);
+  CHECK(end.point.xy_m.x() == Approx(10.0));
+  CHECK(end.is_end);
+  CHECK(point_to_steer_for(std::vector<Waypoint>{{3, 4}}, {{0.0, 0.0}}, 2.0).is_end);
+}

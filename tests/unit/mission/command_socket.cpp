@@ -21,7 +21,7 @@ std::string ask(std::uint16_t port, const std::string& line) {
   return reply;
 }
 
-CommandSocket::Handler echo() {
+CommandHandler echo() {
   return [](const std::string& command) { return "{\"ok\":true,\"did\":\"" + command + "\"}"; };
 }
 

@@ -1,34 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "low_level/path/path_finder.h"
 
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <memory>
-#include <new>
 
+#include "tests/support/allocations.h"
 #include "tests/support/catch.h"
 #include "tests/unit/path/reference_search.h"
-
-namespace {
-std::atomic<long> allocations{0};
-}  // namespace
-
-// All single-object forms together: one that is not replaced could meet another one's delete.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size == 0 ? 1 : size);
-}
-void* operator new(std::size_t size) {
-  if (void* memory = operator new(size, std::nothrow)) {
-    return memory;
-  }
-  throw std::bad_alloc{};
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
 
 namespace lodesman::testing {
 namespace {
@@ -38,6 +17,7 @@ constexpr double kRange = 30.0;
 struct Rig {
   std::unique_ptr<SonarObstacles> obstacles = std::make_unique<SonarObstacles>();
   std::unique_ptr<SonarPath> path = std::make_unique<SonarPath>();
+  std::unique_ptr<PathRequest> request = std::make_unique<PathRequest>();
   PathFinder finder;
 
   void add_disc(double x_m, double y_m, double protection_m) {
@@ -48,7 +28,11 @@ struct Rig {
     o.protection_second_m = protection_m;
   }
   PathReason find(double goal_x_m, double goal_y_m, double range_m = kRange) {
-    finder.find_path(*obstacles, {7, 41, goal_x_m, goal_y_m}, range_m, *path);
+    request->id = 7;
+    request->frame = 41;
+    request->goal_x_m = goal_x_m;
+    request->goal_y_m = goal_y_m;
+    finder.find_path(*obstacles, *request, range_m, *path);
     return path->reason;
   }
 };
@@ -169,9 +153,10 @@ TEST_CASE("path_finder: nothing is allocated once it is made", "[low_level][path
   polygon.vertices[0] = {-6.0, 12.0};
   polygon.vertices[1] = {-9.0, 14.0};
   polygon.vertices[2] = {-5.0, 17.0};
-  const long before = allocations;
+  const AllocationScope scope;
   rig.find(0.0, 20.0);
-  REQUIRE(allocations == before);
+  const std::uint64_t allocations = scope.count();
+  REQUIRE(allocations == 0);
   REQUIRE(rig.path->reason == PathReason::kFound);
 }
 

@@ -176,10 +176,28 @@ TEST_CASE("plans.jsonl: a line a plan, null cost where no path was found", "[rep
   }
   CHECK(has_found);
   CHECK(has_none);
-  CHECK(keys_of(Json::parse(lines.front())) ==
-        std::vector<std::string>{"id", "t_s", "captured_s", "start_m", "start_heading_deg",
-                                 "goal_m", "found", "reason", "cost_10_14", "path_m",
-                                 "waypoint_source", "waypoints_m", "expansions", "plan_time_us"});
+  CHECK(keys_of(Json::parse(lines.front())) == std::vector<std::string>{"id",
+                                                                        "t_s",
+                                                                        "captured_s",
+                                                                        "start_m",
+                                                                        "start_heading_deg",
+                                                                        "goal_m",
+                                                                        "found",
+                                                                        "reason",
+                                                                        "cost_10_14",
+                                                                        "path_m",
+                                                                        "waypoint_source",
+                                                                        "rung",
+                                                                        "changed",
+                                                                        "speed_share",
+                                                                        "course_deg",
+                                                                        "obstacle",
+                                                                        "clearance_m",
+                                                                        "clearance_after_s",
+                                                                        "plan_age_s",
+                                                                        "waypoints_m",
+                                                                        "expansions",
+                                                                        "plan_time_us"});
 }
 
 TEST_CASE("run files: an empty run leaves three whole files", "[report]") {

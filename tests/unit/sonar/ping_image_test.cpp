@@ -67,6 +67,28 @@ TEST_CASE("frame files: what is no whole 8-bit image is refused with one line",
   CHECK_THROWS_AS(read_grey_image(fs::temp_directory_path()), StartupError);
 }
 
+TEST_CASE("frame files: no other format is tried", "[low_level][sonar]") {
+  for (const std::string bytes : {"\x89PNG\r\n\x1b\n IEND", "\xFF\xD8 \xFF\xD9", "BM", "II*"}) {
+    const TemporaryFile file{"other", bytes};
+    CHECK_THROWS_WITH(read_grey_image(file.path()),
+                      file.path().string() + ":1: image: not a binary PGM, PNG or JPEG image");
+  }
+}
+
+TEST_CASE("frame files: an image that says it is huge is refused before it is decoded",
+          "[low_level][sonar]") {
+  using namespace std::string_literals;
+  const std::string png =
+      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x75\x30\0\0\x75\x30\x08\0\0\0\0 and IEND"s;
+  const std::string jpeg =
+      "\xFF\xD8\xFF\xE0\0\x04\xFF\xD8 \xFF\xFF\xC2\0\x0B\x08\x80\0\x80\0\x01 \xFF\xD9"s;
+  for (const std::string& bytes : {png, jpeg}) {
+    const TemporaryFile file{"huge", bytes};
+    CHECK_THROWS_WITH(read_grey_image(file.path()),
+                      file.path().string() + ":1: image: must have at most 64 million pixels");
+  }
+}
+
 TEST_CASE("frame files: a polar image too large for a ping is refused", "[low_level][sonar]") {
   GreyImage image;
   image.columns = kMaxBeams + 1;

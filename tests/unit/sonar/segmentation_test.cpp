@@ -2,34 +2,13 @@
 #include "low_level/sonar/segmentation.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
-#include <new>
 #include <random>
 
+#include "tests/support/allocations.h"
 #include "tests/support/catch.h"
 #include "tests/unit/sonar/synthetic.h"
-
-namespace {
-std::atomic<long> allocations{0};
-}  // namespace
-
-// All single-object forms together: one that is not replaced could meet another one's delete.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size == 0 ? 1 : size);
-}
-void* operator new(std::size_t size) {
-  if (void* memory = operator new(size, std::nothrow)) {
-    return memory;
-  }
-  throw std::bad_alloc{};
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
 
 namespace lodesman {
 namespace {
@@ -297,9 +276,10 @@ TEST_CASE("segmentation: allocates nothing once it is made", "[low_level][sonar]
   light(*ping, 220, [](double x, double y) { return std::abs(y - 15.0) <= 0.3 || x > 5.0; });
   const auto seen = std::make_unique<SonarObstacles>();
   Segmenter segmenter{shipped_options()};
-  const long before = allocations;
+  const testing::AllocationScope scope;
   segmenter.segment(*ping, *seen);
-  CHECK(allocations == before);
+  const std::uint64_t allocations = scope.count();
+  CHECK(allocations == 0);
   CHECK(seen->count > 0);
 }
 

@@ -16,10 +16,12 @@ using testing::scenario_of;
 using testing::shipped_vessel;
 
 const std::vector<std::string> kShipped = {
-    "paper-static",     "paper-multiple",   "paper-moving",     "paper-radius-0.2",
-    "paper-radius-0.5", "paper-radius-1.0", "paper-radius-1.5", "paper-speed-0.11",
-    "paper-speed-0.22", "paper-speed-0.42", "paper-speed-0.74", "paper-speed-1.12",
-    "tank-straight",    "tank-static",      "tank-moving",      "paper-local-minimum"};
+    "paper-static",        "paper-multiple",   "paper-moving",     "paper-radius-0.2",
+    "paper-radius-0.5",    "paper-radius-1.0", "paper-radius-1.5", "paper-speed-0.11",
+    "paper-speed-0.22",    "paper-speed-0.42", "paper-speed-0.74", "paper-speed-1.12",
+    "tank-straight",       "tank-static",      "tank-moving",      "paper-local-minimum",
+    "start-in-four-zones", "goal-abeam",       "goal-astern",      "goal-in-mover",
+    "closing-channel",     "ring-opens",       "wide-wall",        "twenty-movers"};
 
 TEST_CASE("scenario: every key of the format arrives where it belongs", "[hal_sim][scenario]") {
   const Scenario s = scenario_of(kGoodScenario);

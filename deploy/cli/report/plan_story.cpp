@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/cli/report/plan_story.h"
+
+#include <cmath>
+
+#include "deploy/cli/report/numbers.h"
+
+namespace lodesman::cli {
+namespace {
+
+[[nodiscard]] std::string speed_of(const PlanRecord& plan) {
+  if (plan.speed_share <= 0.0) {
+    return plan.speed_share < 0.0 ? "astern" : "stopped";
+  }
+  return plan.speed_share < 1.0 ? "at " + fixed(100.0 * plan.speed_share, 0) + " % speed"
+                                : "at full speed";
+}
+
+[[nodiscard]] std::string action_of(const PlanRecord& plan) {
+  const std::string speed = speed_of(plan);
+  if (plan.rung == "on_route") {
+    return "on the path to the goal, " + speed;
+  }
+  if (plan.rung == "aside") {
+    return "steers " + fixed(plan.course_deg.value_or(0.0), 0) + " deg, " + speed;
+  }
+  if (plan.rung == "slow") {
+    return "along the path, " + speed;
+  }
+  if (plan.rung == "stop") {
+    return speed + " until it is clear";
+  }
+  if (plan.rung == "escape") {
+    return "out of the zone it is in, " + speed;
+  }
+  if (plan.rung == "near_goal") {
+    return "the goal lies in a zone: to the nearest free point, " + speed;
+  }
+  if (plan.rung == "best_point") {
+    return "no way to the goal: to the nearest point that can be reached, " + speed;
+  }
+  return plan.rung == "previous"
+             ? std::string{"along the previous waypoints ("} + to_string(plan.reason) + ")"
+             : std::string{"nothing to follow ("} + to_string(plan.reason) + ")";
+}
+
+}  // namespace
+
+std::string describe(const PlanRecord& plan) {
+  std::string text = fixed(plan.t_s, 1) + " s: " + action_of(plan);
+  if (plan.cause != 0 && plan.clearance_m) {
+    text += "; obstacle " + std::to_string(plan.cause) + ", " + fixed(*plan.clearance_m, 2) +
+            " m clear in " + fixed(plan.clearance_after_s, 0) + " s";
+  }
+  return text + " (plan " + fixed(plan.t_s - plan.captured_s, 2) + " s old)";
+}
+
+std::string PlanStory::news(const PlanRecord& plan) {
+  // Along the path nothing is done about an obstacle: the nearest one may change without news.
+  const std::uint32_t cause = plan.rung == "on_route" ? 0 : plan.cause;
+  if ((plan.rung == rung_ && cause == cause_) || plan.t_s - told_s_ < kSilence_s) {
+    return {};
+  }
+  rung_ = plan.rung;
+  cause_ = cause;
+  told_s_ = plan.t_s;
+  return describe(plan);
+}
+
+}  // namespace lodesman::cli

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// What to do next among moving things: a set of manoeuvres is sailed in thought, each against where
+// every obstacle will be by then, and the cheapest is taken. (Ours; the paper steers along its path
+// whatever moves.) Plain values, bounded work, no allocation; one thread.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "high_level/guidance/route.h"
+#include "mid_level/base/time.h"
+#include "mid_level/messages/tracks.h"
+
+namespace lodesman {
+
+// How the vehicle answers the helm, as far as looking ahead needs it.
+struct VehicleResponse {
+  double speed_max_m_s = 0.0;        // [m/s] > 0 at the scenario's SurgeRef
+  double surge_time_s = 0.0;         // [s] > 0 to come within 1/e of a new speed
+  double turn_rate_max_rad_s = 0.0;  // [rad/s] > 0
+  double heading_gain_per_s = 0.0;   // [1/s] > 0 turn rate a radian of deviation
+  double hull_half_length_m = 0.0;   // [m] two discs cover the hull: see clearance
+  double hull_half_beam_m = 0.0;     // [m]
+  double look_ahead_m = 0.0;         // [m] > 0 of the line-of-sight guidance
+};
+
+struct OwnMotion {
+  Eigen::Vector2d p_W = Eigen::Vector2d::Zero();  // [m] [world]
+  double heading_rad = 0.0;
+  double surge_m_s = 0.0;
+};
+
+struct ManoeuvreOptions {
+  double clearance_m = 0.0;    // [m] > 0 between hull and obstacle; less costs
+  double core_m = 0.0;         // [m] >= 0 less than this counts as a collision
+  double doubt_sigmas = 0.0;   // [-] of a track's covariance that are kept clear of ...
+  double doubt_max_m = 0.0;    // [m] ... up to this
+  double switch_gain_s = 0.0;  // [s] another manoeuvre must be better by this
+};
+
+// First another course for a while, then back to the route.
+struct Manoeuvre {
+  double offset_rad = 0.0;   // [rad] off the route's course, clockwise positive
+  double for_s = 0.0;        // [s] so long
+  double speed_share = 1.0;  // [-] [-0.5, 1] of speed_max, as long as it lasts
+  friend bool operator==(const Manoeuvre&, const Manoeuvre&) = default;
+};
+
+// What came of one, in thought.
+struct Foresight {
+  double cost_s = 0.0;             // [s] time to the route's end and what else counts, as time
+  double delay_s = 0.0;            // [s] of it, what is no time: closeness and the like
+  double least_clearance_m = 0.0;  // [m] of the hull; far off a lower bound; infinity: no obstacle
+  double least_after_s = 0.0;      // [s] when
+  std::uint32_t least_track = 0;   // [-] Track::id; 0: none
+  bool collides = false;
+};
+
+// An obstacle as it is foreseen: what is constant during one choice.
+struct Hazard {
+  const Track* track = nullptr;
+  Eigen::Vector2d velocity_m_s = Eigen::Vector2d::Zero();
+  double age_s = 0.0;  // of its place
+  double place_sigma_m = 0.0;
+  double velocity_sigma_m_s = 0.0;
+  double around_m = 0.0;  // no part of it is farther from its centre
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+};
+
+class ManoeuvreChooser {
+ public:
+  ManoeuvreChooser(const VehicleResponse& response, const ManoeuvreOptions& options) noexcept
+      : response_{response}, options_{options} {}
+
+  struct Choice {
+    Manoeuvre manoeuvre;
+    Foresight foresight;
+    Foresight of_route;    // what following the route at full speed would have come to
+    Route way;             // the way foreseen, own place first, until it is back on the route
+    bool changed = false;  // another one than last time
+  };
+
+  void forget() noexcept { kept_ = {}; }
+
+  // speed_share_max: [0, 1] what is allowed here. stay_at_end: the route's end is a place to wait
+  // at, not the mission's goal.
+  [[nodiscard]] const Choice& choose(Time now, const OwnMotion& own, const Route& route,
+                                     const Tracks& tracks, double speed_share_max,
+                                     bool stay_at_end) noexcept;
+
+ private:
+  void foresee_hazards(Time now, const Tracks& tracks) noexcept;
+  struct Voyage;
+  // Given up, at an infinite cost, once it must cost more than cost_max_s.
+  [[nodiscard]] Foresight foresee(const Manoeuvre& manoeuvre, double cost_max_s,
+                                  Route* way) const noexcept;
+  [[nodiscard]] Voyage set_out(const Manoeuvre& manoeuvre) const noexcept;
+  void sail_on(const Manoeuvre& manoeuvre, Voyage& voyage) const noexcept;
+  void meet_hazards(Voyage& voyage) const noexcept;
+  [[nodiscard]] double hull_clearance_m(const Hazard& hazard, double after_s, const OwnMotion& own,
+                                        double wanted_m) const noexcept;
+  [[nodiscard]] static double cost_of_crossing_ahead_s(const Hazard& hazard, double after_s,
+                                                       const OwnMotion& own) noexcept;
+  void return_to_route(Route& way) const noexcept;
+  void consider(const Manoeuvre& manoeuvre) noexcept;
+  void consider_all() noexcept;
+  void stay_with_last() noexcept;
+
+  VehicleResponse response_;
+  ManoeuvreOptions options_;
+  std::array<Hazard, kMaxObstacles> hazards_{};
+  std::size_t hazard_count_ = 0;
+  // Of the choice being made.
+  OwnMotion own_;
+  const Route* route_ = nullptr;
+  double speed_share_max_ = 1.0;
+  bool stay_at_end_ = false;
+  double horizon_s_ = 0.0;
+  double step_s_ = 0.0;
+  Choice choice_;
+  Manoeuvre kept_;
+};
+
+}  // namespace lodesman

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "high_level/guidance/pilot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mid_level/messages/obstacle_distance.h"
+
+namespace lodesman {
+namespace {
+
+using Vec = Eigen::Vector2d;
+
+constexpr double kPassing_m = 4.0;   // an obstacle whose zone is farther off a path is not passed
+constexpr double kOutside_m = 0.02;  // a start nearer than this to a zone is put outside it
+constexpr double kSlightly_m = 0.4;  // no deeper in a zone it is beside the path, not astray
+constexpr double kArrived_m = 0.4;   // so near to a place to wait at is there
+
+[[nodiscard]] Vec centre_of(const Obstacle& shape) noexcept {
+  if (shape.shape == ObstacleShape::kEllipse) {
+    return {shape.centre_x_m, shape.centre_y_m};
+  }
+  Vec centre = Vec::Zero();
+  for (std::uint32_t i = 0; i < shape.vertex_count; ++i) {
+    centre += Vec{shape.vertices[i].x_m, shape.vertices[i].y_m} / shape.vertex_count;
+  }
+  return centre;
+}
+
+}  // namespace
+
+Pilot::Pilot(const PilotOptions& options)
+    : options_{options}, chooser_{options.response, options.manoeuvres} {}
+
+void Pilot::start() noexcept {
+  chooser_.forget();
+  side_count_ = 0;
+}
+
+OwnMotion Pilot::when_it_takes_effect(Time now, const VehicleState& state) const noexcept {
+  OwnMotion own{{state.x_m, state.y_m}, state.heading_rad, state.surge_m_s};
+  const double ahead_s = to_seconds(now - state.valid_at + options_.latency);
+  own.p_W += own.surge_m_s * ahead_s * Vec{std::sin(own.heading_rad), std::cos(own.heading_rad)};
+  return own;
+}
+
+void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const WorldPoint& goal,
+                PathRequest& request) noexcept {
+  own_W_ = when_it_takes_effect(now, state).p_W;
+  request.space = PathSpace::kWorld;
+  request.side_gain_m = options_.side_gain_m;
+  make_zones(options_.zones, tracks, now, own_W_, options_.response.speed_max_m_s, request);
+  Vec start = own_W_;
+  Vec end = goal.xy_m;
+  escaping_ = false;
+  goal_moved_ = false;
+  if (const double clear_m = zone_clearance_m(request, start); clear_m < kOutside_m) {
+    if (const auto out = way_out(request, start)) {
+      start = *out;
+      escaping_ = clear_m < -kSlightly_m;
+    }
+  }
+  if (zone_clearance_m(request, end) < 0.0) {
+    if (const auto free = nearest_free(request, end, start)) {
+      end = *free;
+      goal_moved_ = true;
+    }
+  }
+  request.start_x_m = start.x();
+  request.start_y_m = start.y();
+  request.goal_x_m = end.x();
+  request.goal_y_m = end.y();
+  ask_for_sides(request);
+  *asked_ = request;
+}
+
+void Pilot::ask_for_sides(PathRequest& request) const noexcept {
+  for (std::uint32_t i = 0; i < request.zone_count; ++i) {
+    PathZone& zone = request.zones[i];
+    for (std::size_t k = 0; k < side_count_; ++k) {
+      if (sides_[k].track == zone.shape.id) {
+        zone.may_keep_to_port = sides_[k].side != Side::kStarboard;
+        zone.may_keep_to_starboard = sides_[k].side != Side::kPort;
+      }
+    }
+  }
+}
+
+void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const VehicleState& state,
+                   Plan& plan) noexcept {
+  make_route(path);
+  if (path.reason == PathReason::kFound) {
+    remember_sides(route_);
+  }
+  const bool stay_at_end = goal_moved_ || path.reason != PathReason::kFound;
+  const double share = path.narrow ? options_.narrow_speed_share : 1.0;
+  const OwnMotion own = when_it_takes_effect(now, state);
+  const auto& choice = chooser_.choose(now, own, route_, tracks, share, stay_at_end);
+  plan.waypoint_count = 0;
+  for (std::uint32_t i = 0; i < choice.way.count && plan.waypoint_count < kMaxWaypoints; ++i) {
+    plan.waypoints[plan.waypoint_count++] = {choice.way.points[i].x(), choice.way.points[i].y()};
+  }
+  const bool at_end = stay_at_end && (route_.end() - own.p_W).norm() < kArrived_m;
+  plan.source = WaypointSource::kCurrent;
+  plan.stay_at_end = stay_at_end;
+  const bool aside = choice.manoeuvre.for_s > 0.0;
+  const RoutePlace place = nearest_place(route_, own.p_W, {}, 1e9);
+  const Vec aim = point_ahead(route_, place, options_.response.look_ahead_m) - own.p_W;
+  const double route_rad = aim.norm() > 0.2 ? std::atan2(aim.x(), aim.y()) : own.heading_rad;
+  plan.steer_by = aside ? SteerBy::kCourse : SteerBy::kLine;
+  plan.course_rad = wrap_to_pi(route_rad + (aside ? choice.manoeuvre.offset_rad : 0.0));
+  plan.speed_share = choice.manoeuvre.speed_share;
+  if (!aside && at_end) {
+    plan.speed_share = 0.0;
+  }
+  explain(path, choice, plan);
+}
+
+void Pilot::make_route(const SonarPath& path) noexcept {
+  route_.clear();
+  (void)route_.add(own_W_);
+  const bool led = path.point_count > 0;
+  for (std::uint32_t i = 0; i < path.point_count; ++i) {
+    const Vec point{path.points[i].x_m, path.points[i].y_m};
+    if ((point - route_.end()).norm() > 1e-3) {
+      (void)route_.add(point);
+    }
+  }
+  if (!led) {
+    (void)route_.add({asked_->start_x_m, asked_->start_y_m});
+  }
+  if (route_.count == 1) {
+    (void)route_.add(route_.end());
+  }
+}
+
+// Sides are kept to as long as the path still goes by.
+void Pilot::remember_sides(const Route& route) noexcept {
+  side_count_ = 0;
+  for (std::uint32_t i = 0; i < asked_->zone_count; ++i) {
+    const Obstacle& shape = asked_->zones[i].shape;
+    const Vec centre = centre_of(shape);
+    const RoutePlace place = nearest_place(route, centre, {}, 1e9);
+    const bool at_start = place.leg == 0 && place.share <= 0.0;
+    const bool at_end = place.leg + 2 >= route.count && place.share >= 1.0;
+    const Vec there = point_at(route, place);
+    if (shape.id == 0 || at_start || at_end || edge_distance_m(shape, {there}) > kPassing_m) {
+      continue;
+    }
+    const Vec along = route.points[place.leg + 1] - route.points[place.leg];
+    const Vec across = centre - there;
+    const double to_port = along.x() * across.y() - along.y() * across.x();
+    sides_[side_count_++] = {shape.id, to_port > 0.0 ? Side::kPort : Side::kStarboard};
+  }
+}
+
+void Pilot::explain(const SonarPath& path, const ManoeuvreChooser::Choice& choice,
+                    Plan& plan) const noexcept {
+  plan.reason = escaping_                                          ? PathReason::kStartBlocked
+                : goal_moved_ && path.reason == PathReason::kFound ? PathReason::kGoalBlocked
+                                                                   : path.reason;
+  plan.narrow = path.narrow;
+  plan.changed = choice.changed || path.sides_changed;
+  plan.cause = choice.foresight.least_track;
+  plan.clearance_m = choice.foresight.least_clearance_m;
+  plan.clearance_after_s = choice.foresight.least_after_s;
+  const Manoeuvre& manoeuvre = choice.manoeuvre;
+  if (manoeuvre.for_s > 0.0) {
+    plan.cause = choice.of_route.least_track;
+    plan.rung = manoeuvre.speed_share <= 0.0           ? PlanRung::kStop
+                : std::abs(manoeuvre.offset_rad) > 0.0 ? PlanRung::kAside
+                                                       : PlanRung::kSlow;
+  } else if (escaping_) {
+    plan.rung = PlanRung::kEscape;
+  } else if (path.reason != PathReason::kFound) {
+    plan.rung = PlanRung::kBestPoint;
+  } else if (goal_moved_) {
+    plan.rung = PlanRung::kNearGoal;
+  } else {
+    plan.rung = path.narrow ? PlanRung::kSlow : PlanRung::kOnRoute;
+  }
+}
+
+}  // namespace lodesman

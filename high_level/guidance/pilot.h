@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// What turns tracks into a way: asks for a path in the world round zones of our own making, keeps
+// to the sides once taken, chooses the manoeuvre, and says why. Between its request and the answer
+// the paper's loop (replanner.h) is what it always was. Plain values; one thread; it allocates when
+// made and never after.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "high_level/guidance/manoeuvre.h"
+#include "high_level/guidance/zones.h"
+#include "mid_level/messages/command.h"
+#include "mid_level/messages/vehicle.h"
+
+namespace lodesman {
+
+struct PilotOptions {
+  ZoneOptions zones;
+  VehicleResponse response;
+  ManoeuvreOptions manoeuvres;
+  double side_gain_m = 0.0;         // [m] what another side must save
+  double narrow_speed_share = 0.0;  // [-] (0, 1] in water that is too narrow for full zones
+  Duration latency{};               // from a request to thrust that follows its plan
+};
+
+class Pilot {
+ public:
+  explicit Pilot(const PilotOptions& options);
+
+  // A mission starts: nothing is kept to.
+  void start() noexcept;
+
+  // Fills in space, start, goal, zones and sides of a request.
+  void ask(Time now, const Tracks& tracks, const VehicleState& state, const WorldPoint& goal,
+           PathRequest& request) noexcept;
+
+  // The plan made of the answer to the last request; fills in what the pilot decides.
+  void decide(Time now, const SonarPath& path, const Tracks& tracks, const VehicleState& state,
+              Plan& plan) noexcept;
+
+ private:
+  enum class Side : std::uint8_t { kNone, kPort, kStarboard };
+  struct KeptSide {
+    std::uint32_t track = 0;
+    Side side = Side::kNone;
+  };
+
+  [[nodiscard]] OwnMotion when_it_takes_effect(Time now, const VehicleState& state) const noexcept;
+  void ask_for_sides(PathRequest& request) const noexcept;
+  void remember_sides(const Route& route) noexcept;
+  void make_route(const SonarPath& path) noexcept;
+  void explain(const SonarPath& path, const ManoeuvreChooser::Choice& choice,
+               Plan& plan) const noexcept;
+
+  PilotOptions options_;
+  ManoeuvreChooser chooser_;
+  // Of the request that is out.
+  std::unique_ptr<PathRequest> asked_ = std::make_unique<PathRequest>();
+  bool escaping_ = false;
+  bool goal_moved_ = false;
+  Eigen::Vector2d own_W_ = Eigen::Vector2d::Zero();
+  Route route_;
+  std::array<KeptSide, kMaxObstacles> sides_{};
+  std::size_t side_count_ = 0;
+};
+
+}  // namespace lodesman

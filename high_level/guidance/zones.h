@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Zones of our own making round tracks: shape + hull + a margin that grows with the planned speed
+// and with doubt; and what to do when start or goal lie in one. Pure functions; any thread.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "mid_level/base/frames.h"
+#include "mid_level/messages/path.h"
+#include "mid_level/messages/tracks.h"
+
+namespace lodesman {
+
+struct ZoneOptions {
+  double hull_radius_m = 0.0;       // [m] half the beam
+  double margin_m = 0.0;            // [m] at no speed and no doubt
+  double margin_per_speed_s = 0.0;  // [s] more of it a metre a second of planned speed
+  double least_margin_m = 0.0;      // [m] in water that is too narrow for more
+  double doubt_sigmas = 0.0;        // [-] standard deviations of a track's place that are added ...
+  double doubt_max_m = 0.0;         // [m] ... up to this
+  // A track that moves faster than this share of the planned speed has no zone: where it will be
+  // when the vehicle is there is the manoeuvres' to foresee.
+  double slow_share = 0.0;  // [-]
+};
+
+// Makes the request's zones, each placed where its obstacle will be when a vehicle at `from` with
+// that speed can be there. protection_first/second_m are the full zone, give_m what of it may be
+// given up.
+void make_zones(const ZoneOptions& options, const Tracks& tracks, Time now,
+                const Eigen::Vector2d& from_W, double speed_m_s, PathRequest& request) noexcept;
+
+// From a point to the nearest zone's edge, negative inside; infinity without zones.
+[[nodiscard]] double zone_clearance_m(const PathRequest& request,
+                                      const Eigen::Vector2d& point_W) noexcept;
+
+// The nearest point outside every zone to a point inside one, reached in a straight line that
+// leads into no obstacle deeper than it starts. Nothing where there is none within 12 m.
+[[nodiscard]] std::optional<Eigen::Vector2d> way_out(const PathRequest& request,
+                                                     const Eigen::Vector2d& point_W) noexcept;
+
+// The point outside every zone that lies nearest to a point inside one; of equally near ones the
+// one nearest to `from`. Nothing where there is none within 12 m.
+[[nodiscard]] std::optional<Eigen::Vector2d> nearest_free(const PathRequest& request,
+                                                          const Eigen::Vector2d& point_W,
+                                                          const Eigen::Vector2d& from_W) noexcept;
+
+}  // namespace lodesman

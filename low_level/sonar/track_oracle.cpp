@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "low_level/sonar/track_oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mid_level/messages/obstacle_distance.h"
+
+namespace lodesman {
+namespace {
+
+using Vec = Eigen::Vector2d;
+
+constexpr std::size_t kLatePings = 32;
+constexpr int kEdgeSamples = 24;       // of an ellipse
+constexpr double kWallSample_m = 0.5;  // of a wall
+// A velocity is a difference of two places: it is not known at the first sight of an obstacle.
+constexpr Duration kVelocityAfter = std::chrono::milliseconds{500};
+constexpr double kUnknownVelocitySigma_m_s = 0.5;
+// Where it should be seen and is not for so long, it is gone.
+constexpr Duration kGoneAfter = std::chrono::seconds{2};
+
+[[nodiscard]] Vec ellipse_point(const Obstacle& ellipse, double share) noexcept {
+  const double angle_rad = 2.0 * std::numbers::pi * share;
+  const Vec along = first_axis(ellipse.angle_rad);
+  const Vec across{along.y(), -along.x()};
+  return Vec{ellipse.centre_x_m, ellipse.centre_y_m} +
+         std::cos(angle_rad) * ellipse.semi_axis_first_m * along +
+         std::sin(angle_rad) * ellipse.semi_axis_second_m * across;
+}
+
+[[nodiscard]] bool segments_cross(const Vec& a, const Vec& b, const Vec& c, const Vec& d) noexcept {
+  const auto side = [](const Vec& p, const Vec& q, const Vec& r) {
+    return (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
+  };
+  return (side(a, b, c) > 0.0) != (side(a, b, d) > 0.0) &&
+         (side(c, d, a) > 0.0) != (side(c, d, b) > 0.0);
+}
+
+// Whether an obstacle lies across the line of sight.
+[[nodiscard]] bool hides(const Obstacle& obstacle, const Vec& from, const Vec& to) noexcept {
+  if (obstacle.shape != ObstacleShape::kEllipse) {
+    bool crossed = false;
+    for_each_side(obstacle, [&](const Vec& a, const Vec& b) {
+      crossed = crossed || segments_cross(from, to, a, b);
+    });
+    return crossed;
+  }
+  const Vec along = first_axis(obstacle.angle_rad);
+  const Vec across{along.y(), -along.x()};
+  // In the frame that makes the ellipse a unit circle.
+  const auto to_unit = [&](const Vec& p) {
+    const Vec offset = p - Vec{obstacle.centre_x_m, obstacle.centre_y_m};
+    return Vec{along.dot(offset) / obstacle.semi_axis_first_m,
+               across.dot(offset) / obstacle.semi_axis_second_m};
+  };
+  return segment_distance_m(to_unit(from), to_unit(to), Vec::Zero()) < 1.0;
+}
+
+// Calls visit(point, distance along the wall) at most kWallSample_m apart.
+template <class Visit>
+void for_each_wall_point(const Obstacle& wall, Visit visit) noexcept {
+  double walked_m = 0.0;
+  for_each_side(wall, [&](const Vec& a, const Vec& b) {
+    const double length_m = (b - a).norm();
+    const int parts = std::max(1, static_cast<int>(std::ceil(length_m / kWallSample_m)));
+    for (int i = 0; i <= parts; ++i) {
+      const double share = static_cast<double>(i) / parts;
+      visit(Vec{a + share * (b - a)}, walked_m + share * length_m);
+    }
+    walked_m += length_m;
+  });
+}
+
+// The part of a polyline between two distances along it.
+[[nodiscard]] Obstacle part_of(const Obstacle& wall, double from_m, double to_m) noexcept {
+  Obstacle part = wall;
+  part.vertex_count = 0;
+  const auto add = [&](const Vec& p) {
+    if (part.vertex_count < kMaxVertices) {
+      part.vertices[part.vertex_count++] = {p.x(), p.y()};
+    }
+  };
+  double walked_m = 0.0;
+  for_each_side(wall, [&](const Vec& a, const Vec& b) {
+    const double length_m = (b - a).norm();
+    const double first_m = std::max(from_m, walked_m);
+    const double last_m = std::min(to_m, walked_m + length_m);
+    if (length_m > 0.0 && first_m <= last_m) {
+      if (part.vertex_count == 0) {
+        add(a + (first_m - walked_m) / length_m * (b - a));
+      }
+      add(a + (last_m - walked_m) / length_m * (b - a));
+    }
+    walked_m += length_m;
+  });
+  return part;
+}
+
+}  // namespace
+
+TrackOracle::TrackOracle(std::span<const MovingObstacle> world, const TrackOracleOptions& options)
+    : world_{world},
+      options_{options},
+      random_{"track oracle", options.seed},
+      now_(world.size()),
+      known_(world.size()),
+      late_(kLatePings) {}
+
+void TrackOracle::see(const KnownView& view, Tracks& out) noexcept {
+  for (std::size_t i = 0; i < world_.size(); ++i) {
+    now_[i] = world_[i].at(view.scenario_time_s);
+  }
+  for (std::size_t i = 0; i < world_.size(); ++i) {
+    Known& known = known_[i];
+    // Drawn whether it is needed or not, so that one obstacle's luck is not another's.
+    const bool dropped_out = random_.uniform() < options_.dropout;
+    const Seen seen = dropped_out ? Seen{} : look_at(i, view);
+    if (seen.any) {
+      learn(known, i, seen, view);
+      continue;
+    }
+    const Duration unseen = view.captured - known.track.last_seen;
+    known.known = known.known && unseen <= options_.memory &&
+                  (unseen <= kGoneAfter || !should_be_seen(known, i, view));
+  }
+  write(view, late_[pings_ % kLatePings]);
+  ++pings_;
+  for (std::uint64_t back = 1; back <= std::min<std::uint64_t>(pings_, kLatePings); ++back) {
+    const Tracks& then = late_[(pings_ - back) % kLatePings];
+    if (then.captured <= view.captured - options_.delay || back == kLatePings) {
+      out = then;
+      return;
+    }
+  }
+  out = Tracks{};  // nothing is old enough yet
+  out.frame = view.frame;
+  out.captured = view.captured;
+}
+
+TrackOracle::Seen TrackOracle::look_at(std::size_t index, const KnownView& view) const noexcept {
+  Seen seen;
+  if (!world_[index].exists(view.scenario_time_s)) {
+    return seen;
+  }
+  const Obstacle& obstacle = now_[index];
+  if (obstacle.shape == ObstacleShape::kEllipse) {
+    for (int i = 0; i < kEdgeSamples && !seen.any; ++i) {
+      seen.any =
+          in_sight(ellipse_point(obstacle, i / static_cast<double>(kEdgeSamples)), index, view);
+    }
+    return seen;
+  }
+  for_each_wall_point(obstacle, [&](const Vec& p, double along_m) {
+    if (in_sight(p, index, view)) {
+      seen.from_m = seen.any ? std::min(seen.from_m, along_m) : along_m;
+      seen.to_m = seen.any ? std::max(seen.to_m, along_m) : along_m;
+      seen.any = true;
+    }
+  });
+  return seen;
+}
+
+bool TrackOracle::in_sight(const Vec& p_W, std::size_t index,
+                           const KnownView& view) const noexcept {
+  const Vec p_V = view.pose.to_vehicle({p_W}).xy_m;
+  if (p_V.norm() > view.range_m ||
+      std::abs(std::atan2(p_V.x(), p_V.y())) > options_.sector_rad / 2.0) {
+    return false;
+  }
+  const Vec& own = view.pose.p_WV.xy_m;
+  for (std::size_t i = 0; i < world_.size(); ++i) {
+    if (i != index && world_[i].exists(view.scenario_time_s) && hides(now_[i], own, p_W)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Judged at the middle of what is known, moved on to now.
+bool TrackOracle::should_be_seen(const Known& known, std::size_t index,
+                                 const KnownView& view) const noexcept {
+  const Track& track = known.track;
+  const double age_s = to_seconds(view.captured - track.last_seen);
+  const Vec moved{track.velocity_x_m_s * age_s, track.velocity_y_m_s * age_s};
+  Vec middle{track.shape.centre_x_m, track.shape.centre_y_m};
+  if (track.shape.shape != ObstacleShape::kEllipse) {
+    middle.setZero();
+    for (std::uint32_t i = 0; i < track.shape.vertex_count; ++i) {
+      middle +=
+          Vec{track.shape.vertices[i].x_m, track.shape.vertices[i].y_m} / track.shape.vertex_count;
+    }
+  }
+  return in_sight(middle + moved, index, view);
+}
+
+void TrackOracle::learn(Known& known, std::size_t index, const Seen& seen,
+                        const KnownView& view) noexcept {
+  const MovingObstacle& truth = world_[index];
+  if (!known.known) {
+    known = {};
+    known.known = true;
+    known.first_seen = view.captured;
+    known.from_m = seen.from_m;
+    known.to_m = seen.to_m;
+  }
+  known.from_m = std::min(known.from_m, seen.from_m);
+  known.to_m = std::max(known.to_m, seen.to_m);
+  Track& track = known.track;
+  track.id = static_cast<std::uint32_t>(index) + 1;
+  track.last_seen = view.captured;
+  track.shape = now_[index].shape == ObstacleShape::kPolyline
+                    ? part_of(now_[index], known.from_m, known.to_m)
+                    : now_[index];
+  track.shape.id = track.id;
+  const double sigma_m = options_.place_sigma_m;
+  track.shape = translated(track.shape, sigma_m * random_.gaussian(), sigma_m * random_.gaussian());
+  track.place_xx_m2 = track.place_yy_m2 = sigma_m * sigma_m;
+  const bool moves = view.scenario_time_s < truth.stops_at_s;
+  const bool velocity_known = view.captured - known.first_seen >= kVelocityAfter;
+  const double velocity_sigma_m_s =
+      velocity_known ? options_.velocity_sigma_m_s : kUnknownVelocitySigma_m_s;
+  const auto measured = [&](double true_m_s) {
+    const double noise_m_s = options_.velocity_sigma_m_s * random_.gaussian();
+    return velocity_known ? (moves ? true_m_s : 0.0) + noise_m_s : 0.0;
+  };
+  track.velocity_x_m_s = measured(truth.velocity_x_m_s);
+  track.velocity_y_m_s = measured(truth.velocity_y_m_s);
+  track.velocity_xx_m2_s2 = track.velocity_yy_m2_s2 = velocity_sigma_m_s * velocity_sigma_m_s;
+}
+
+void TrackOracle::write(const KnownView& view, Tracks& out) const noexcept {
+  out.frame = view.frame;
+  out.captured = view.captured;
+  out.count = 0;
+  out.dropped = 0;
+  for (const Known& known : known_) {
+    if (!known.known) {
+      continue;
+    }
+    if (out.count == kMaxObstacles) {
+      ++out.dropped;
+      continue;
+    }
+    out.tracks[out.count++] = known.track;
+  }
+}
+
+}  // namespace lodesman

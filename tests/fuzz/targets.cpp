@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/fuzz/targets.h"
+
+#include <array>
+
+namespace lodesman::fuzz {
+
+std::span<const Target> targets() {
+  static constexpr std::array kTargets{
+      Target{"command_line", command_line, ""},
+      Target{"configuration", configuration, "deploy/config"},
+      Target{"frames", frames, ""},
+      Target{"image", image, ""},
+      Target{"map", map, ""},
+      Target{"map_queries", map_queries, ""},
+      Target{"scenario", scenario, "hal_sim/scenarios"},
+      Target{"segment_header", segment_header, ""},
+      Target{"setting", setting, ""},
+  };
+  return kTargets;
+}
+
+}  // namespace lodesman::fuzz

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What reads bytes from outside, each reader behind one function that may be given any bytes. A
+// target returns where they are accepted or refused as documented, and throws anything else.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace lodesman::fuzz {
+
+void command_line(std::string_view input);    // a line of the command socket
+void configuration(std::string_view input);   // an overlay, as of --config
+void frames(std::string_view input);          // lodesman plan --frames
+void image(std::string_view input);           // an image of lodesman segment
+void map(std::string_view input);             // lodesman plan --map
+void map_queries(std::string_view input);     // lodesman plan --scen
+void scenario(std::string_view input);        // a scenario file
+void segment_header(std::string_view input);  // changes to a good header of shared memory
+void setting(std::string_view input);         // one --set
+
+struct Target {
+  std::string_view name;  // of its folder in the corpus too
+  void (*run)(std::string_view input);
+  std::string_view shipped;  // a directory of the tree whose files are seeds too; or empty
+};
+
+[[nodiscard]] std::span<const Target> targets();
+
+}  // namespace lodesman::fuzz

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two real processes on a segment of the test's own, and what the tests that kill them share.
+#pragma once
+
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "deploy/cli/run/child_process.h"
+#include "deploy/cli/run/settings.h"
+#include "mid_level/base/clock.h"
+#include "mid_level/blackboard/segment.h"
+#include "tests/support/catch.h"
+
+namespace lodesman::testing {
+
+using namespace lodesman::cli;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+namespace fs = std::filesystem;
+
+// A directory of its own for each test, gone with it.
+class Scratch {
+ public:
+  explicit Scratch(const std::string& name)
+      : directory_{fs::temp_directory_path() /
+                   ("lodesman-test-" + name + "-" + std::to_string(getpid()))} {
+    fs::create_directories(directory_);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() { fs::remove_all(directory_); }
+  [[nodiscard]] fs::path file(const std::string& name, const std::string& text = "") const {
+    if (!text.empty()) {
+      std::ofstream{directory_ / name} << text;
+    }
+    return directory_ / name;
+  }
+
+ private:
+  fs::path directory_;
+};
+
+// A goal that is far enough to be under way while things die.
+inline std::string scenario_text(double goal_y_m) {
+  return "name = \"short\"\nseed = 1\ntime_limit_s = 120.0\n[mission]\nstart_m = [0.0, 0.0]\n"
+         "start_heading_deg = 0.0\ngoal_m = [0.0, " +
+         std::to_string(goal_y_m) +
+         "]\ngoal_radius_m = 0.5\n[vehicle]\nspeed_m_s = 0.74\nradius_m = 0.5\n";
+}
+
+template <class Condition>
+bool eventually(Condition condition, Duration patience = seconds{20}) {
+  const SteadyClock clock;
+  const Time deadline = clock.now() + patience;
+  while (!condition()) {
+    if (clock.now() >= deadline) {
+      return false;
+    }
+    std::this_thread::sleep_for(milliseconds{2});
+  }
+  return true;
+}
+
+// A child of a process by its program's name; 0 when there is none.
+inline pid_t child_of(pid_t parent, const std::string& program) {
+  const std::string id = std::to_string(parent);
+  std::ifstream children{"/proc/" + id + "/task/" + id + "/children"};
+  for (pid_t child = 0; children >> child;) {
+    std::string name;
+    std::ifstream{"/proc/" + std::to_string(child) + "/comm"} >> name;
+    if (name == program) {
+      return child;
+    }
+  }
+  return 0;
+}
+
+inline bool any_segment_of(pid_t launcher) {
+  return fs::exists("/dev/shm/lodesman-sim-" + std::to_string(launcher));
+}
+
+// Both programs on a segment of this test's own.
+struct Boat {
+  explicit Boat(const Scratch& scratch)
+      : segment{"lodesman-test-boat-" + std::to_string(getpid())} {
+    CommonOptions options;
+    options.sets = {"command_socket.port = 0"};
+    const auto config = scratch.file("config.toml", load_configuration("paper", options).to_text());
+    const auto scenario = scratch.file("scenario.toml", scenario_text(25.0));
+    arguments = {"--segment",     segment,      "--config",
+                 config.string(), "--scenario", scenario.string()};
+    start_low();
+    start_high();
+  }
+  ~Boat() {
+    high.reset();
+    low.reset();
+    remove_dead_segment(segment);
+  }
+  void start_low() { low = std::make_unique<ChildProcess>("lodesman-low", arguments); }
+  void start_high() {
+    auto with_start = arguments;
+    with_start.push_back("--start");
+    high = std::make_unique<ChildProcess>("lodesman-high", with_start);
+  }
+
+  std::string segment;
+  std::vector<std::string> arguments;
+  std::unique_ptr<ChildProcess> low;
+  std::unique_ptr<ChildProcess> high;
+};
+
+inline bool drives(const Stamped<ThrustApplied>* thrust) {
+  return thrust != nullptr && thrust->value.reason == ThrustReason::kCommanded &&
+         thrust->value.left > 128;
+}
+
+// Kills the high level after a random while under way. Gives how long after its last command the
+// thrusters were neutral, by the stamps of what was published.
+inline double neutral_after_kill_s(Boat& boat, std::mt19937& random) {
+  const auto board = SharedBlackboard::observe(boat.segment, seconds{20});
+  Reader<ThrustApplied> thrust{board->thrust_applied};
+  Reader<HelmCommand> helm{board->helm_command};
+  REQUIRE(eventually([&] { return drives(thrust.latest()); }));
+  std::this_thread::sleep_for(milliseconds{random() % 300});
+  REQUIRE(kill(boat.high->pid(), SIGKILL) == 0);
+  REQUIRE(eventually([&] { return boat.high->ended().has_value(); }));
+  const Time last_command = helm.latest()->stamp;
+  const Stamped<ThrustApplied>* neutral = nullptr;
+  REQUIRE(eventually([&] {
+    const auto* newest = thrust.next();
+    const bool found = newest != nullptr && newest->stamp > last_command &&
+                       newest->value.reason == ThrustReason::kStaleCommand;
+    neutral = found ? newest : nullptr;
+    return found;
+  }));
+  CHECK(int{neutral->value.left} == 128);
+  CHECK(int{neutral->value.right} == 128);
+  CHECK_FALSE(boat.low->ended().has_value());
+  return to_seconds(neutral->stamp - last_command);
+}
+
+}  // namespace lodesman::testing

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Both levels over one segment as on the boat, but in one process, so that the thread sanitizer
+// sees every access of every task from both sides. What is asserted is that it works; that nothing
+// races is the sanitizer's to say.
+#include "deploy/cli/run/simulated_boat.h"
+#include "mid_level/recording/recording_hash.h"
+#include "mid_level/runtime/run_realtime.h"
+#include "tests/system/boat.h"
+
+using namespace lodesman;
+using namespace lodesman::testing;
+
+namespace {
+
+// Reads every channel as displays and recordings do, until it is told to stop.
+class Onlooker {
+ public:
+  explicit Onlooker(const Blackboard& board)
+      : thread_{[this, &board](const std::stop_token& stop) {
+          RecordingHash hash{board};
+          while (!stop.stop_requested()) {
+            hash.update();
+            ++looks_;
+          }
+        }} {}
+  [[nodiscard]] int looks() const noexcept { return looks_; }
+
+ private:
+  std::atomic<int> looks_{0};
+  std::jthread thread_;
+};
+
+}  // namespace
+
+TEST_CASE("one process: both levels sail over one segment, and an onlooker reads it all",
+          "[system]") {
+  for (const char* profile : {"paper", "default"}) {
+    const std::string segment = "lodesman-test-one-" + std::to_string(getpid());
+    auto low_board = SharedBlackboard::create(segment);
+    auto high_board = SharedBlackboard::open(segment, Role::kHigh, Duration::zero());
+    const auto board = SharedBlackboard::observe(segment, Duration::zero());
+    const TomlDocument configuration = load_configuration(profile, CommonOptions{});
+    const Scenario scenario = load_named_scenario("paper-static");
+    cli::SimulatedBoat boat{low_board.writable(), configuration, scenario};
+    HighLevelOptions options = high_level_options(configuration, scenario);
+    options.planner.start_by_itself = true;
+    HighLevel high{high_board.writable(), Role::kHigh, options};
+    Reader<ThrustApplied> thrust{board->thrust_applied};
+    Reader<Plan> plan{board->plan};
+    {
+      const Onlooker onlooker{*board};
+      const auto low_tasks = boat.tasks();
+      const auto high_tasks = high.tasks();
+      const RealtimeRunner low_runner{low_tasks, low_board.writable(), Role::kLow};
+      const RealtimeRunner high_runner{high_tasks, high_board.writable(), Role::kHigh};
+      CHECK(eventually([&] { return drives(thrust.latest()); }));
+      CHECK(eventually([&] {
+        const auto* newest = plan.latest();
+        return newest != nullptr && newest->value.id >= 3 &&
+               newest->value.reason == PathReason::kFound;
+      }));
+      CHECK(eventually([&] { return onlooker.looks() > 100; }));
+    }
+    // The runners have made every task safe.
+    CHECK(int{thrust.latest()->value.left} == 128);
+    CHECK(int{thrust.latest()->value.right} == 128);
+  }
+}

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "high_level/guidance/pilot.h"
+
+#include <memory>
+
+#include "tests/support/allocations.h"
+#include "tests/support/catch.h"
+#include "tests/unit/guidance/support.h"
+
+namespace lodesman::testing {
+namespace {
+
+using Vec = Eigen::Vector2d;
+
+PilotOptions pilot_options() {
+  PilotOptions options;
+  options.zones = default_zones();
+  options.zones.margin_m = 2.0;  // wide, so that beside an obstacle there is a zone to be in
+  options.response = default_response();
+  options.manoeuvres = default_manoeuvres();
+  options.side_gain_m = 1.5;
+  options.narrow_speed_share = 0.5;
+  return options;
+}
+
+VehicleState state_at(double x_m, double y_m, double surge_m_s = 0.0) {
+  VehicleState state;
+  state.x_m = x_m;
+  state.y_m = y_m;
+  state.surge_m_s = surge_m_s;
+  return state;
+}
+
+// A pilot with its last request and plan.
+struct Bridge {
+  std::unique_ptr<Pilot> pilot = std::make_unique<Pilot>(pilot_options());
+  std::unique_ptr<PathRequest> request = std::make_unique<PathRequest>();
+  std::unique_ptr<SonarPath> path = std::make_unique<SonarPath>();
+  std::unique_ptr<Plan> plan = std::make_unique<Plan>();
+
+  void ask(const Tracks& tracks, const VehicleState& state, const Vec& goal) {
+    pilot->ask(at_s(0), tracks, state, {goal}, *request);
+  }
+  void decide(const Tracks& tracks, const VehicleState& state, PathReason reason,
+              std::initializer_list<PathPoint> points) {
+    path->reason = reason;
+    path->point_count = 0;
+    for (const PathPoint& point : points) {
+      path->points[path->point_count++] = point;
+    }
+    pilot->decide(at_s(0), *path, tracks, state, *plan);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("pilot: with nothing in the way the path is followed to the goal",
+          "[high_level][guidance]") {
+  Bridge bridge;
+  const Tracks none = tracks_of({});
+  bridge.ask(none, state_at(1, 2), {1, 30});
+  CHECK(bridge.request->space == PathSpace::kWorld);
+  CHECK(bridge.request->zone_count == 0);
+  CHECK(bridge.request->side_gain_m == Approx(1.5));
+  CHECK(bridge.request->start_x_m == Approx(1.0));
+  CHECK(bridge.request->goal_y_m == Approx(30.0));
+  bridge.decide(none, state_at(1, 2), PathReason::kFound, {{1, 2}, {1, 30}});
+  const Plan& plan = *bridge.plan;
+  CHECK(plan.rung == PlanRung::kOnRoute);
+  CHECK(plan.reason == PathReason::kFound);
+  CHECK(plan.steer_by == SteerBy::kLine);
+  CHECK(plan.speed_share == Approx(1.0));
+  CHECK_FALSE(plan.stay_at_end);
+  REQUIRE(plan.waypoint_count == 2);
+  CHECK(plan.waypoints[1].y_m == Approx(30.0));
+}
+
+TEST_CASE("pilot: it plans from where the vehicle will be when the plan takes effect",
+          "[high_level][guidance]") {
+  PilotOptions options = pilot_options();
+  options.latency = from_seconds(0.15);
+  Bridge bridge;
+  bridge.pilot = std::make_unique<Pilot>(options);
+  VehicleState state = state_at(0, 0, 1.0);
+  state.valid_at = at_s(5.0);
+  state.heading_rad = to_rad(90.0);
+  bridge.pilot->ask(at_s(5.1), tracks_of({}), state, {{20.0, 0.0}}, *bridge.request);
+  CHECK(bridge.request->start_x_m == Approx(0.25));
+  CHECK(bridge.request->start_y_m == Approx(0.0).margin(1e-9));
+}
+
+TEST_CASE("pilot: the side that a path took is asked for again, until a new start",
+          "[high_level][guidance]") {
+  const Tracks tracks = tracks_of({disc_track(7, 0, 12)});
+  Bridge bridge;
+  bridge.ask(tracks, state_at(0, 0), {0, 25});
+  REQUIRE(bridge.request->zone_count == 1);
+  CHECK(bridge.request->zones[0].may_keep_to_port);
+  CHECK(bridge.request->zones[0].may_keep_to_starboard);
+  // East of it: it stays to port.
+  bridge.decide(tracks, state_at(0, 0), PathReason::kFound, {{0, 0}, {3.6, 12}, {0, 25}});
+  bridge.ask(tracks, state_at(0, 1), {0, 25});
+  CHECK(bridge.request->zones[0].may_keep_to_port);
+  CHECK_FALSE(bridge.request->zones[0].may_keep_to_starboard);
+  // A path that took the other side changes what is asked for.
+  bridge.decide(tracks, state_at(0, 1), PathReason::kFound, {{0, 1}, {-3.6, 12}, {0, 25}});
+  bridge.ask(tracks, state_at(0, 2), {0, 25});
+  CHECK_FALSE(bridge.request->zones[0].may_keep_to_port);
+  CHECK(bridge.request->zones[0].may_keep_to_starboard);
+  // Without a path nothing is learnt, and nothing forgotten.
+  bridge.decide(tracks, state_at(0, 2), PathReason::kNoPath, {{0, 2}, {3.6, 12}, {0, 13}});
+  bridge.ask(tracks, state_at(0, 3), {0, 25});
+  CHECK_FALSE(bridge.request->zones[0].may_keep_to_port);
+  bridge.pilot->start();
+  bridge.ask(tracks, state_at(0, 3), {0, 25});
+  CHECK(bridge.request->zones[0].may_keep_to_port);
+  CHECK(bridge.request->zones[0].may_keep_to_starboard);
+}
+
+TEST_CASE("pilot: an obstacle that is passed is asked for on neither side",
+          "[high_level][guidance]") {
+  const Tracks tracks = tracks_of({disc_track(7, 0, 12)});
+  Bridge bridge;
+  bridge.ask(tracks, state_at(0, 0), {0, 25});
+  bridge.decide(tracks, state_at(0, 0), PathReason::kFound, {{0, 0}, {3.6, 12}, {0, 25}});
+  bridge.ask(tracks, state_at(3, 16), {0, 25});
+  bridge.decide(tracks, state_at(3, 16), PathReason::kFound, {{3, 16}, {0, 25}});
+  bridge.ask(tracks, state_at(3, 16), {0, 25});
+  REQUIRE(bridge.request->zone_count == 1);
+  CHECK(bridge.request->zones[0].may_keep_to_port);
+  CHECK(bridge.request->zones[0].may_keep_to_starboard);
+}
+
+TEST_CASE("pilot: out of a zone that it is in it escapes, and says so", "[high_level][guidance]") {
+  const Tracks tracks = tracks_of({disc_track(7, -2.5, 0)});
+  const VehicleState inside = state_at(0, 0);  // 2 m off an obstacle whose zone is 3 m wide
+  Bridge bridge;
+  bridge.ask(tracks, inside, {10, 10});
+  const Vec start{bridge.request->start_x_m, bridge.request->start_y_m};
+  CHECK(zone_clearance_m(*bridge.request, {0, 0}) < -0.5);
+  CHECK(zone_clearance_m(*bridge.request, start) > 0.0);
+  CHECK(start.x() > 0.9);
+  bridge.decide(tracks, inside, PathReason::kFound, {{start.x(), start.y()}, {10, 10}});
+  CHECK(bridge.plan->reason == PathReason::kStartBlocked);
+  CHECK(bridge.plan->rung == PlanRung::kEscape);
+  REQUIRE(bridge.plan->waypoint_count == 3);
+  CHECK(bridge.plan->waypoints[1].x_m == Approx(start.x()));
+  CHECK_FALSE(bridge.plan->stay_at_end);
+}
+
+TEST_CASE("pilot: a goal in a zone is gone near to, and waited at", "[high_level][guidance]") {
+  const Tracks tracks = tracks_of({disc_track(7, 0, 20)});
+  Bridge bridge;
+  bridge.ask(tracks, state_at(0, 0), {0, 20});
+  const PathPoint near{bridge.request->goal_x_m, bridge.request->goal_y_m};
+  CHECK(zone_clearance_m(*bridge.request, {near.x_m, near.y_m}) > 0.0);
+  CHECK(near.y_m == Approx(20.0 - 3.5).margin(0.3));
+  bridge.decide(tracks, state_at(0, 0), PathReason::kFound, {{0, 0}, near});
+  CHECK(bridge.plan->reason == PathReason::kGoalBlocked);
+  CHECK(bridge.plan->rung == PlanRung::kNearGoal);
+  CHECK(bridge.plan->stay_at_end);
+  CHECK(bridge.plan->speed_share == Approx(1.0));
+  CHECK(bridge.plan->goal_y_m == Approx(0.0).margin(1e-12));  // not the pilot's to say
+  // There it waits.
+  const VehicleState there = state_at(near.x_m, near.y_m - 0.3);
+  bridge.ask(tracks, there, {0, 20});
+  bridge.decide(tracks, there, PathReason::kFound, {{there.x_m, there.y_m}, near});
+  CHECK(bridge.plan->stay_at_end);
+  CHECK(bridge.plan->speed_share == Approx(0.0).margin(1e-12));
+}
+
+TEST_CASE("pilot: without a path it goes to the best point and waits", "[high_level][guidance]") {
+  const Tracks none = tracks_of({});
+  Bridge bridge;
+  bridge.ask(none, state_at(0, 0), {0, 30});
+  bridge.decide(none, state_at(0, 0), PathReason::kNoPath, {{0, 0}, {2, 8}});
+  CHECK(bridge.plan->reason == PathReason::kNoPath);
+  CHECK(bridge.plan->rung == PlanRung::kBestPoint);
+  CHECK(bridge.plan->stay_at_end);
+  REQUIRE(bridge.plan->waypoint_count == 2);
+  CHECK(bridge.plan->waypoints[1].x_m == Approx(2.0));
+  CHECK(bridge.plan->waypoints[1].y_m == Approx(8.0));
+  // With no point at all it stays where it is.
+  bridge.decide(none, state_at(0, 0), PathReason::kLimit, {});
+  CHECK(bridge.plan->stay_at_end);
+  CHECK(bridge.plan->speed_share == Approx(0.0).margin(1e-12));
+}
+
+TEST_CASE("pilot: narrow water is gone through slowly", "[high_level][guidance]") {
+  const Tracks none = tracks_of({});
+  Bridge bridge;
+  bridge.ask(none, state_at(0, 0), {0, 30});
+  bridge.path->narrow = true;
+  bridge.decide(none, state_at(0, 0), PathReason::kFound, {{0, 0}, {0, 30}});
+  CHECK(bridge.plan->narrow);
+  CHECK(bridge.plan->rung == PlanRung::kSlow);
+  CHECK(bridge.plan->speed_share == Approx(0.5));
+}
+
+TEST_CASE("pilot: a mover head-on is steered round on a course, and named",
+          "[high_level][guidance]") {
+  const Tracks tracks = tracks_of({disc_track(3, 0, 16, 0.0, -0.5)});
+  const VehicleState state = state_at(0, 0, 1.0);
+  Bridge bridge;
+  bridge.ask(tracks, state, {0, 25});
+  CHECK(bridge.request->zone_count == 0);  // too fast for a zone
+  bridge.decide(tracks, state, PathReason::kFound, {{0, 0}, {0, 25}});
+  CHECK(bridge.plan->rung == PlanRung::kAside);
+  CHECK(bridge.plan->steer_by == SteerBy::kCourse);
+  CHECK(bridge.plan->course_rad > 0.1);
+  CHECK(bridge.plan->cause == 3);
+  CHECK(bridge.plan->changed);
+}
+
+TEST_CASE("pilot: neither asking nor deciding allocates", "[high_level][guidance]") {
+  const Tracks tracks =
+      tracks_of({disc_track(1, 0, 16, 0.0, -0.5), disc_track(2, 2, 12), disc_track(4, 0, 25),
+                 disc_track(5, -2.5, 0), wall_track(6, {{-9, 20}, {-5, 22}, {-5, 30}})});
+  const VehicleState state = state_at(0, 0, 1.0);
+  Bridge bridge;
+  const AllocationScope scope;
+  for (int i = 0; i < 3; ++i) {
+    bridge.ask(tracks, state, {0, 25});
+    bridge.decide(tracks, state, i < 2 ? PathReason::kFound : PathReason::kNoPath,
+                  {{0, 0}, {5, 12}, {0, 22}});
+  }
+  const auto allocations = scope.count();
+  CHECK(bridge.request->zone_count == 4);
+  CHECK(bridge.plan->waypoint_count > 2);
+  CHECK(allocations == 0);
+}
+
+}  // namespace lodesman::testing

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "high_level/guidance/zones.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "mid_level/messages/obstacle_distance.h"
+#include "tests/support/catch.h"
+#include "tests/unit/guidance/support.h"
+
+namespace lodesman::testing {
+namespace {
+
+using RequestPtr = std::unique_ptr<PathRequest>;
+
+RequestPtr zones_of(const Tracks& tracks, double speed_m_s = 1.0, double now_s = 0.0) {
+  auto request = std::make_unique<PathRequest>();
+  make_zones(default_zones(), tracks, at_s(now_s), {0.0, 0.0}, speed_m_s, *request);
+  return request;
+}
+
+PathZone round_zone(double x_m, double y_m, double radius_m, double zone_m) {
+  PathZone zone;
+  zone.shape = disc_track(1, x_m, y_m).shape;
+  zone.shape.semi_axis_first_m = zone.shape.semi_axis_second_m = radius_m;
+  zone.shape.protection_first_m = zone.shape.protection_second_m = zone_m;
+  return zone;
+}
+
+RequestPtr request_with(std::initializer_list<PathZone> zones) {
+  auto request = std::make_unique<PathRequest>();
+  for (const PathZone& zone : zones) {
+    request->zones[request->zone_count++] = zone;
+  }
+  return request;
+}
+
+}  // namespace
+
+TEST_CASE("zones: a zone is shape, hull and a margin that grows with the speed",
+          "[high_level][guidance]") {
+  const auto slow = zones_of(tracks_of({disc_track(4, 0, 10)}), 0.5);
+  REQUIRE(slow->zone_count == 1);
+  CHECK(slow->zones[0].shape.id == 4);
+  CHECK(slow->zones[0].shape.protection_first_m == Approx(0.5 + 0.6 + 0.8 + 0.2));
+  CHECK(slow->zones[0].shape.protection_second_m == Approx(2.1));
+  CHECK(slow->zones[0].give_m == Approx(1.6 - 0.6 - 0.45));
+  const auto fast = zones_of(tracks_of({disc_track(4, 0, 10)}), 1.0);
+  CHECK(fast->zones[0].shape.protection_first_m == Approx(2.3));
+}
+
+TEST_CASE("zones: a wall's zone is its margin alone", "[high_level][guidance]") {
+  const auto request = zones_of(tracks_of({wall_track(2, {{-5, 8}, {5, 8}})}));
+  REQUIRE(request->zone_count == 1);
+  CHECK(request->zones[0].shape.protection_first_m == Approx(1.8));
+}
+
+TEST_CASE("zones: doubt of place and, with age, of velocity makes them larger, up to a limit",
+          "[high_level][guidance]") {
+  Track track = disc_track(4, 0, 10);
+  track.place_xx_m2 = 0.01;
+  track.velocity_yy_m2_s2 = 0.04;
+  const auto at_once = zones_of(tracks_of({track}));
+  CHECK(at_once->zones[0].shape.protection_first_m == Approx(2.3 + 0.2));
+  CHECK(at_once->zones[0].give_m == Approx(0.75 + 0.2));
+  const auto later = zones_of(tracks_of({track}), 1.0, 2.0);
+  CHECK(later->zones[0].shape.protection_first_m == Approx(2.3 + 2.0 * std::sqrt(0.01 + 0.16)));
+  const auto long_after = zones_of(tracks_of({track}), 1.0, 100.0);
+  CHECK(long_after->zones[0].shape.protection_first_m == Approx(2.3 + 1.5));
+}
+
+TEST_CASE("zones: what moves faster than the stated share of our speed has none",
+          "[high_level][guidance]") {
+  const auto request =
+      zones_of(tracks_of({disc_track(1, 0, 10, 0.31, 0.0), disc_track(2, 0, 12, 0.0, 0.29)}));
+  REQUIRE(request->zone_count == 1);
+  CHECK(request->zones[0].shape.id == 2);
+}
+
+TEST_CASE("zones: each lies where its obstacle will be when we can be there",
+          "[high_level][guidance]") {
+  const auto now = zones_of(tracks_of({disc_track(1, 0, 10, 0.2, 0.0)}));
+  CHECK(now->zones[0].shape.centre_x_m == Approx(0.2 * 9.5));
+  // Seen a second ago it has moved since.
+  const auto aged = zones_of(tracks_of({disc_track(1, 0, 10, 0.2, 0.0)}), 1.0, 1.0);
+  CHECK(aged->zones[0].shape.centre_x_m == Approx(0.2 * (1.0 + 9.5)).margin(0.01));
+  // However slow we are, no zone is placed more than a minute ahead.
+  const auto slow = zones_of(tracks_of({disc_track(1, 0, 10, 0.02, 0.0)}), 0.1);
+  CHECK(slow->zones[0].shape.centre_x_m == Approx(0.02 * 60.0));
+}
+
+TEST_CASE("zones: clearance is that of the nearest zone, infinite without any",
+          "[high_level][guidance]") {
+  CHECK(std::isinf(zone_clearance_m(*request_with({}), {0, 0})));
+  const auto two = request_with({round_zone(0, 10, 0.5, 2.0), round_zone(0, -5, 0.5, 1.0)});
+  CHECK(zone_clearance_m(*two, {0, 0}) == Approx(4.0));
+  CHECK(zone_clearance_m(*two, {0, 9}) == Approx(-1.0));
+  PathZone wall;
+  wall.shape = wall_track(3, {{-5, 3}, {5, 3}}).shape;
+  wall.shape.protection_first_m = 1.0;
+  CHECK(zone_clearance_m(*request_with({wall}), {0, 0}) == Approx(2.0));
+}
+
+TEST_CASE("zones: the way out of one leads away from its obstacle", "[high_level][guidance]") {
+  const auto request = request_with({round_zone(0, 0, 0.5, 2.0)});
+  const auto out = way_out(*request, {0.0, 1.0});
+  REQUIRE(out);
+  CHECK(out->x() == Approx(0.0).margin(0.2));
+  CHECK(out->y() == Approx(2.2).margin(0.11));
+  CHECK(zone_clearance_m(*request, *out) > 0.0);
+  CHECK_FALSE(way_out(*request_with({round_zone(0, 0, 0.5, 20.0)}), {0.0, 1.0}));
+}
+
+TEST_CASE("zones: no way out leads through an obstacle", "[high_level][guidance]") {
+  // A wall's wide zone covers all south of y = 0; due north, the shortest way, a body lies across.
+  PathZone wall;
+  wall.shape = wall_track(3, {{-30, -3}, {30, -3}}).shape;
+  wall.shape.protection_first_m = 3.0;
+  const PathZone body = round_zone(0, 0, 0.5, 0.6);
+  const auto request = request_with({wall, body});
+  const Eigen::Vector2d start{0.0, -0.7};
+  const auto out = way_out(*request, start);
+  REQUIRE(out);
+  CHECK(zone_clearance_m(*request, *out) > 0.0);
+  for (double share = 0.0; share <= 1.0; share += 0.01) {
+    CHECK(edge_distance_m(body.shape, {start + share * (*out - start)}) > 0.15);
+  }
+}
+
+TEST_CASE("zones: of the free points round a goal the one nearest to us is taken",
+          "[high_level][guidance]") {
+  const auto request = request_with({round_zone(0, 0, 0.5, 2.0)});
+  const auto from_south = nearest_free(*request, {0.0, 0.0}, {0.0, -10.0});
+  REQUIRE(from_south);
+  CHECK(from_south->x() == Approx(0.0).margin(1e-9));
+  CHECK(from_south->y() == Approx(-2.2).margin(0.11));
+  // A goal that lies towards one edge is moved to that edge, wherever we are.
+  const auto off_centre = nearest_free(*request, {0.0, 1.5}, {0.0, -10.0});
+  REQUIRE(off_centre);
+  CHECK(off_centre->y() > 1.9);
+  CHECK_FALSE(nearest_free(*request_with({round_zone(0, 0, 0.5, 20.0)}), {0, 0}, {0, -30}));
+}
+
+}  // namespace lodesman::testing

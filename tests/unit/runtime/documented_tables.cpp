@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// docs/threads.md says what the program's own tables say.
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "mid_level/runtime/task_table.h"
+#include "tests/support/catch.h"
+
+using namespace lodesman;
+
+namespace {
+
+// The rows below a table's head in docs/threads.md, as they are written.
+std::vector<std::string> documented_rows(const std::string& head) {
+  std::ifstream file{LODESMAN_DOCS "/threads.md"};
+  std::vector<std::string> rows;
+  std::string line;
+  while (std::getline(file, line) && line != head) {
+  }
+  std::getline(file, line);  // the rule below the head
+  while (std::getline(file, line) && line.starts_with("|")) {
+    rows.push_back(line);
+  }
+  return rows;
+}
+
+std::int64_t in_ms(Duration duration) {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(duration).count();
+}
+
+}  // namespace
+
+TEST_CASE("docs: the table of tasks is the program's own", "[docs]") {
+  std::vector<std::string> rows;
+  for (const TaskSpec& spec : kTaskTable) {
+    std::ostringstream row;
+    row << "| " << to_string(spec.id) << " | " << in_ms(spec.period) << " | " << in_ms(spec.phase)
+        << " | " << spec.fifo_priority << " |";
+    rows.push_back(row.str());
+  }
+  CHECK(documented_rows("| task | period ms | phase ms | priority |") == rows);
+}
+
+TEST_CASE("docs: the table of channels is the program's own", "[docs]") {
+  std::vector<std::string> rows;
+  const auto board = std::make_unique<Blackboard>();
+  for_each_channel(*board, [&](const ChannelInfo& info, const auto& channel) {
+    std::ostringstream row;
+    row << "| " << info.name << " | " << (info.writer == Role::kLow ? "low" : "high") << " | "
+        << info.writer_task << " | " << channel.kSlots << " | "
+        << (info.max_age == max_age::kNoLimit ? "-" : std::to_string(in_ms(info.max_age))) << " |";
+    rows.push_back(row.str());
+  });
+  CHECK(documented_rows("| channel | process | task | slots | max age ms |") == rows);
+}
