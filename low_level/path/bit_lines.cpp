@@ -10,15 +10,6 @@ namespace {
 
 constexpr int kMaxWords = 64;  // a mask of words is itself a word
 
-void set_lines(std::uint64_t* bitmap, LineSpan lines) noexcept {
-  for (int line = lines.first; line <= lines.last;) {
-    const int bit = (line + 64) & 63;
-    const int run = std::min(64 - bit, lines.last - line + 1);
-    bitmap[(line + 64) >> 6] |= (~std::uint64_t{0} >> (64 - run)) << bit;
-    line += run;
-  }
-}
-
 }  // namespace
 
 BitLines::BitLines(int length, std::span<const LineSpan> outlines)
@@ -26,7 +17,6 @@ BitLines::BitLines(int length, std::span<const LineSpan> outlines)
       length_{length},
       used_words_{(length + 2) / 64 + 1},  // so that the last two bits of a line are always clear
       stride_shift_{static_cast<int>(std::bit_width(static_cast<unsigned>(used_words_ - 1)))},
-      crowd_words_{static_cast<std::size_t>(lines_) / 64 + 3},
       outlines_(outlines.begin(), outlines.end()),
       even_(outlines.size()),
       outline_words_((outlines.size() + 2 * kSpareLines) << stride_shift_) {
@@ -34,7 +24,7 @@ BitLines::BitLines(int length, std::span<const LineSpan> outlines)
   outline_words_.resize(outline_words_.size() + 2);
   words_ = outline_words_;
   crowded_.resize(outlines.size() + 2);
-  crowd_.resize(static_cast<std::size_t>(used_words_) * crowd_words_);
+  crowd_.resize(static_cast<std::size_t>(used_words_) * (outlines.size() / 64 + 3));
   far_crowd_ = crowd_;
   ragged_up_ = crowd_;
   ragged_down_ = crowd_;
@@ -47,6 +37,7 @@ BitLines::BitLines(int length, std::span<const LineSpan> outlines)
   }
   words_ = outline_words_;
   find_ragged_ends();
+  find_full_lines();
 }
 
 // Where a line begins before its neighbour does, a run up it passes the place where the neighbour
@@ -65,31 +56,60 @@ void BitLines::find_ragged_ends() {
     }
     even_[static_cast<std::size_t>(line)] = even;
     for (int word = 0; word < used_words_; ++word) {
-      const auto row = static_cast<std::size_t>(word) * crowd_words_;
       const bool up =
           even.first > own.first && word <= (even.first - 1) >> 6 && word + 1 >= own.first >> 6;
       const bool down =
           even.last < own.last && word >= (even.last + 1) >> 6 && word - 1 <= own.last >> 6;
       if (up) {
-        set_lines(ragged_up_.data() + row, {line, line});
+        set_lines_in(ragged_up_, std::uint64_t{1} << word, {line, line});
       }
       if (down) {
-        set_lines(ragged_down_.data() + row, {line, line});
+        set_lines_in(ragged_down_, std::uint64_t{1} << word, {line, line});
       }
     }
   }
 }
 
+void BitLines::find_full_lines() {
+  full_lines_.resize(static_cast<std::size_t>(used_words_));
+  for (int word = 0; word < used_words_; ++word) {
+    LineSpan run;  // of full lines, up to here
+    for (int line = 0; line < lines_; ++line) {
+      const bool is_full = outline_words_[offset_of(line) + static_cast<std::size_t>(word)] == kAll;
+      run = is_full && run.first <= run.last ? LineSpan{run.first, line}
+            : is_full                        ? LineSpan{line, line}
+                                             : LineSpan{};
+      LineSpan& longest = full_lines_[static_cast<std::size_t>(word)];
+      longest = run.last - run.first > longest.last - longest.first ? run : longest;
+    }
+  }
+}
+
+// Of one word of some lines. Where the outline holds all of it, it is not asked: it lies in other
+// memory, which would have to come near.
+void BitLines::clear(LineSpan lines, int word) noexcept {
+  const LineSpan full = full_lines_.data()[word];
+  std::size_t at = offset_of(lines.first) + static_cast<std::size_t>(word);
+  const std::size_t stride = std::size_t{1} << stride_shift_;
+  int line = lines.first;
+  const auto copy_to = [&](int end) {
+    for (; line < end; ++line, at += stride) {
+      words_.data()[at] = outline_words_.data()[at];
+    }
+  };
+  copy_to(std::min(full.first, lines.last + 1));
+  for (const int end = std::min(full.last, lines.last) + 1; line < end; ++line, at += stride) {
+    words_.data()[at] = kAll;
+  }
+  copy_to(lines.last + 1);
+}
+
 void BitLines::clear() noexcept {
   for (std::size_t i = 0; i < taken_count_; ++i) {
     const Taken& taken = taken_[i];
-    const auto count = static_cast<std::size_t>(taken.words.last - taken.words.first + 1);
-    std::size_t at = offset_of(taken.lines.first) + static_cast<std::size_t>(taken.words.first);
-    for (int line = taken.lines.first; line <= taken.lines.last; ++line) {
-      for (std::size_t word = 0; word < count; ++word) {
-        words_.data()[at + word] = outline_words_.data()[at + word];
-      }
-      at += std::size_t{1} << stride_shift_;
+    // Word by word, not line by line: a shape has few words a line and many lines.
+    for (int word = taken.words.first; word <= taken.words.last; ++word) {
+      clear(taken.lines, word);
     }
     std::fill(crowded_.data() + taken.lines.first, crowded_.data() + taken.lines.last + 3, 0);
   }
@@ -107,25 +127,24 @@ void BitLines::block_all() noexcept {
   }
 }
 
-// Written without branches but for spans of more than two words: how long the next one is cannot
-// be foretold.
 void BitLines::block(int line, int count, const std::int32_t* first,
                      const std::int32_t* last) noexcept {
-  const LineSpan* const outlines = outlines_.data() + line;
   std::uint64_t* words = line_of(line);
   const std::size_t stride = std::size_t{1} << stride_shift_;
   for (int i = 0; i < count; ++i, words += stride) {
-    const LineSpan span{std::max(first[i], outlines[i].first), std::min(last[i], outlines[i].last)};
-    if (span.first > span.last) {
+    if (first[i] > last[i]) {
       continue;
     }
-    const int first_word = span.first >> 6;
-    const int last_word = span.last >> 6;
-    const std::uint64_t from_first = kAll << (span.first & 63);
-    const std::uint64_t to_last = kAll >> (63 - (span.last & 63));
-    const std::uint64_t is_one_word = first_word == last_word ? kAll : 0;
-    words[first_word] &= ~(from_first & (to_last | ~is_one_word));
-    words[last_word] &= ~(to_last & (from_first | ~is_one_word));
+    const int first_word = first[i] >> 6;
+    const int last_word = last[i] >> 6;
+    const std::uint64_t before = ~(kAll << (first[i] & 63));
+    const std::uint64_t after = ~std::uint64_t{1} << (last[i] & 63);
+    if (first_word == last_word) {
+      words[first_word] &= before | after;
+      continue;
+    }
+    words[first_word] &= before;
+    words[last_word] &= after;
     for (int word = first_word + 1; word < last_word; ++word) {
       words[word] = 0;
     }
@@ -172,11 +191,18 @@ void BitLines::end_round(LineSpan lines, LineSpan places) noexcept {
 
 void BitLines::set_lines_in(std::vector<std::uint64_t>& crowd, std::uint64_t words,
                             LineSpan lines) noexcept {
-  for (; words != 0; words &= words - 1) {
-    const int word = std::countr_zero(words);
-    if (word < used_words_) {
-      set_lines(crowd.data() + static_cast<std::size_t>(word) * crowd_words_, lines);
+  const int first_word = std::countr_zero(words);
+  const int last_word = std::min(63 - std::countl_zero(words), used_words_ - 1);
+  for (int line = lines.first; line <= lines.last;) {
+    const int bit = line & 63;
+    const int run = std::min(64 - bit, lines.last - line + 1);
+    const std::uint64_t bits = (kAll >> (64 - run)) << bit;
+    std::uint64_t* const row =
+        crowd.data() + ((line >> 6) + 1) * static_cast<std::ptrdiff_t>(used_words_);
+    for (int word = first_word; word <= last_word; ++word) {
+      row[word] |= bits;
     }
+    line += run;
   }
 }
 

@@ -35,10 +35,9 @@ class BitLines {
   void clear() noexcept;
   void block_all() noexcept;
 
-  // Blocks places of one line. They must lie in its outline, and announce() must have been told.
+  // Blocks places of one line. They must lie in the view, and announce() must have been told.
   void block(int line, LineSpan span) noexcept { block(line, 1, &span.first, &span.last); }
-  // The same for `count` lines from `line` on, each with what lies in its outline of the places
-  // from first[i] to last[i].
+  // The same for `count` lines from `line` on, each from first[i] to last[i].
   void block(int line, int count, const std::int32_t* first, const std::int32_t* last) noexcept;
   // Of one word of a line, keeps free only what is free in `free`. As for block().
   void keep(int line, int word, std::uint64_t free) noexcept { line_of(line)[word] &= free; }
@@ -76,24 +75,16 @@ class BitLines {
   template <int kWay>
   [[nodiscard]] int next_stop(int line, int place) const noexcept;
 
-  // Bitmaps of lines, all starting one word before line 0: the lines where word `word` or what
-  // touches it is crowded.
-  [[nodiscard]] const std::uint64_t* crowd(int word) const noexcept {
-    return crowd_.data() + static_cast<std::size_t>(word) * crowd_words_;
+  // Bitmaps of 64 lines: the next ones up (kSide 1: the lowest bit is line + 1) or down (-1: the
+  // highest bit is line - 1). Those where word `word` or what touches it is crowded:
+  template <int kSide>
+  [[nodiscard]] std::uint64_t crowd(int line, int word) const noexcept {
+    return lines_beside<kSide>(crowd_.data() + word, line);
   }
-  // The lines where a run that comes from outside of what is in the word may meet more than its
-  // end.
-  [[nodiscard]] const std::uint64_t* far_crowd(int word) const noexcept {
-    return far_crowd_.data() + static_cast<std::size_t>(word) * crowd_words_;
-  }
-  // The lines where a run that starts in word `word`, or one word on, may turn at the outline
-  // itself: lines whose neighbours begin later than they do.
-  template <int kWay>
-  [[nodiscard]] const std::uint64_t* ragged(int word) const noexcept {
-    return (kWay > 0 ? ragged_up_ : ragged_down_).data() +
-           static_cast<std::size_t>(word) * crowd_words_;
-  }
-  [[nodiscard]] std::size_t crowd_words() const noexcept { return crowd_words_; }
+  // Those where a run from word `word`, or one word on, up (kWay 1) or down (-1) the line may stop
+  // for anything but the end of the outline.
+  template <int kSide, int kWay>
+  [[nodiscard]] std::uint64_t stopping(int line, int word) const noexcept;
 
  private:
   static constexpr std::uint64_t kAll = ~std::uint64_t{0};
@@ -108,6 +99,14 @@ class BitLines {
   [[nodiscard]] std::size_t offset_of(int line) const noexcept {
     return (static_cast<std::size_t>(line + kSpareLines) << stride_shift_) + 1;
   }
+  // From a column of words, one for each 64 lines and the first for those before line 0.
+  template <int kSide>
+  [[nodiscard]] std::uint64_t lines_beside(const std::uint64_t* column, int line) const noexcept {
+    const int from = kSide > 0 ? line + 1 + 64 : line;
+    const int shift = from & 63;
+    const std::uint64_t* const words = column + (from >> 6) * used_words_;
+    return words[0] >> shift | words[used_words_] << 1 << (63 - shift);
+  }
   // The words of a span and of the places that touch it, as a mask.
   [[nodiscard]] static std::uint64_t words_round(LineSpan span) noexcept {
     const int first = span.first > 0 ? (span.first - 1) >> 6 : 0;
@@ -117,6 +116,9 @@ class BitLines {
   template <int kWay>
   [[nodiscard]] std::uint64_t stops(const std::uint64_t* word) const noexcept;
   void find_ragged_ends();
+  void find_full_lines();
+  void clear(LineSpan lines, int word) noexcept;
+  // `words` is a mask of neighbouring words, not none.
   void set_lines_in(std::vector<std::uint64_t>& crowd, std::uint64_t words,
                     LineSpan lines) noexcept;
 
@@ -124,18 +126,20 @@ class BitLines {
   int length_;
   int used_words_;
   int stride_shift_;
-  std::size_t crowd_words_;
   std::vector<LineSpan> outlines_;
   // Of each line with its two neighbours: from here on upwards (downwards) only crowded words can
   // hold a stop.
   std::vector<LineSpan> even_;
   std::vector<std::uint64_t> outline_words_;
+  std::vector<LineSpan> full_lines_;  // for each word, lines where the outline holds all of it
   std::vector<std::uint64_t> words_;
   std::vector<std::uint64_t> crowded_;  // a mask of words a line, with one line more on each side
-  std::vector<std::uint64_t> crowd_;    // the same the other way round: a mask of lines a word
-  std::vector<std::uint64_t> far_crowd_;
-  std::vector<std::uint64_t> ragged_up_;
-  std::vector<std::uint64_t> ragged_down_;
+  // The same the other way round: for each 64 lines, and for those before line 0, the lines as bits
+  // of a word for each word of a line.
+  std::vector<std::uint64_t> crowd_;
+  std::vector<std::uint64_t> far_crowd_;    // where what a run meets from outside may stop it
+  std::vector<std::uint64_t> ragged_up_;    // where it may turn at the outline itself: the lines
+  std::vector<std::uint64_t> ragged_down_;  // whose neighbours begin or end elsewhere
   // What clear() must give back: the lines and, as a span of words, the places announced.
   struct Taken {
     LineSpan lines;
@@ -180,6 +184,23 @@ std::uint64_t BitLines::stops(const std::uint64_t* word) const noexcept {
     return ~word[0] | (before[0] & ~(before[0] >> 1 | before[1] << 63)) |
            (after[0] & ~(after[0] >> 1 | after[1] << 63));
   }
+}
+
+// A run from a word, or one word on, meets all that is crowded there from within; what lies further
+// on it meets from outside.
+template <int kSide, int kWay>
+std::uint64_t BitLines::stopping(int line, int word) const noexcept {
+  const int next = word + kWay;
+  const auto& ragged = kWay > 0 ? ragged_up_ : ragged_down_;
+  std::uint64_t lines = lines_beside<kSide>(ragged.data() + word, line) | crowd<kSide>(line, word);
+  if (next < 0 || next >= used_words_) {
+    return lines;
+  }
+  lines |= crowd<kSide>(line, next);
+  for (int far = next + kWay; far >= 0 && far < used_words_; far += kWay) {
+    lines |= lines_beside<kSide>(far_crowd_.data() + far, line);
+  }
+  return lines;
 }
 
 template <int kWay>

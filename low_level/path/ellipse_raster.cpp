@@ -87,8 +87,9 @@ struct Batch {
   std::array<std::int32_t, kBatch> last;
   std::array<float, kBatch> surety;  // below zero: the places may be wrong
 
-  // Of a tame ellipse.
-  void work_out(const Conic& conic, int first_line, int count) noexcept {
+  // Of a tame ellipse: what lies in the view of each line. A few lines more than asked for are
+  // worked out, so that no vector is left half full.
+  void work_out(const Conic& conic, int first_line, int count, int length) noexcept {
     // Places are counted from one that lies before all of the ellipse: a conversion to int then
     // rounds down.
     constexpr int kBefore = 1024;
@@ -98,14 +99,19 @@ struct Batch {
     const auto per_height = static_cast<float>(1.0 / conic.height);
     const auto chord = static_cast<float>(conic.chord);
     const auto slope = static_cast<float>(conic.slope);
-    for (int i = 0; i < count; ++i) {
+    // Between the last place before the view and its first, and between its last and the next:
+    // nowhere near a place's centre.
+    const float before_view = static_cast<float>(-base) - 0.75F;
+    const float view_end = static_cast<float>(length - base) - 0.75F;
+    const int whole_vectors = (count + 7) & ~7;
+    for (int i = 0; i < whole_vectors; ++i) {
       const float q = begin + static_cast<float>(i);
       const float share = q * per_height;
       const float left = 1.0F - share * share;
       const float half = chord * std::sqrt(std::max(left, 0.0F));
       const float middle = centre - slope * q;
-      const float low = middle - half;
-      const float high = middle + half;
+      const float low = std::min(std::max(middle - half, before_view), view_end);
+      const float high = std::min(std::max(middle + half, before_view), view_end);
       const auto below_low = static_cast<std::int32_t>(low);
       const auto below_high = static_cast<std::int32_t>(high);
       const float off_low = std::abs(low - static_cast<float>(below_low) - 0.5F);
@@ -177,13 +183,13 @@ void draw_wild(const Conic& conic, BitLines& lines, Contains contains) noexcept 
 
 // Of a line of a tame ellipse of which float numbers do not tell enough.
 template <class Contains>
-LineSpan sure_span(const Conic& conic, int line, int length, Contains contains) noexcept {
+LineSpan careful_span(const Conic& conic, int line, LineSpan view, Contains contains) noexcept {
   const Ends ends{conic, line};
-  if (ends.are_sure()) {
-    return {static_cast<int>(std::ceil(ends.low)), static_cast<int>(std::floor(ends.high))};
+  if (!ends.are_sure()) {
+    return exact_span(view, ends.low, ends.high, [&](int place) { return contains(place, line); });
   }
-  return exact_span({-length, 2 * length}, ends.low, ends.high,
-                    [&](int place) { return contains(place, line); });
+  return {first_from(ends.low, view.first, view.last + 1),
+          last_from(ends.high, view.first, view.last + 1) - 1};
 }
 
 template <class Contains>
@@ -205,12 +211,10 @@ void draw(const Conic& conic, BitLines& lines, Contains contains) noexcept {
   Roundness roundness;
   for (int line = all.first; line <= all.last; line += kBatch) {
     const int count = std::min(kBatch, all.last - line + 1);
-    batch.work_out(conic, line, count);
+    batch.work_out(conic, line, count, lines.length());
     for (int i = 0; i < count; ++i) {
       if (batch.surety.data()[i] < 0.0F) {
-        const Ends ends{conic, line + i};
-        const LineSpan span = exact_span({-lines.length(), 2 * lines.length()}, ends.low, ends.high,
-                                         [&](int place) { return contains(place, line + i); });
+        const LineSpan span = careful_span(conic, line + i, {0, lines.length() - 1}, contains);
         batch.first.data()[i] = span.first;
         batch.last.data()[i] = span.last;
       }

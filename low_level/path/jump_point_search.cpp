@@ -29,15 +29,6 @@ constexpr std::int32_t kNoCost = std::numeric_limits<std::int32_t>::max();
 constexpr std::uint8_t bit_of(int direction) noexcept {
   return static_cast<std::uint8_t>(1U << (direction & 7));
 }
-// The next 64 lines up or down from a line, out of a bitmap of lines: the nearest is the lowest bit
-// going up, the highest going down.
-template <int kWay>
-std::uint64_t lines_ahead(const std::uint64_t* bitmap, int line) noexcept {
-  const int from = kWay > 0 ? line + 1 + 64 : line;
-  const int shift = from & 63;
-  const std::uint64_t* const words = bitmap + (from >> 6);
-  return words[0] >> shift | words[1] << 1 << (63 - shift);
-}
 template <int kWay>
 std::uint64_t only_first(std::uint64_t lines, int count) noexcept {
   return count >= 64
@@ -56,44 +47,11 @@ std::uint64_t line_bit(int away) noexcept {
 
 }  // namespace
 
-JumpPointSearch::Outlook::Outlook(const BitLines& lines)
-    : stride{lines.crowd_words()},
-      up(static_cast<std::size_t>(lines.words_per_line()) * stride),
-      down(up.size()),
-      far(stride) {}
-
-// A run from a word, or one word on, meets all that is crowded there from within; what lies further
-// on it meets from outside.
-void JumpPointSearch::Outlook::look(const BitLines& lines) noexcept {
-  const int words = lines.words_per_line();
-  const auto look_one_way = [&](std::vector<std::uint64_t>& to, int first, int way) {
-    std::fill(far.begin(), far.end(), 0);
-    for (int i = 0, word = first; i < words; ++i, word -= way) {
-      if (i >= 2) {
-        const std::uint64_t* const further = lines.far_crowd(word + 2 * way);
-        for (std::size_t line = 0; line < stride; ++line) {
-          far.data()[line] |= further[line];
-        }
-      }
-      const std::uint64_t* const own = lines.crowd(word);
-      const std::uint64_t* const next = lines.crowd(i >= 1 ? word + way : word);
-      std::uint64_t* const ahead = to.data() + static_cast<std::size_t>(word) * stride;
-      for (std::size_t line = 0; line < stride; ++line) {
-        ahead[line] = far.data()[line] | own[line] | next[line];
-      }
-    }
-  };
-  look_one_way(up, words - 1, 1);
-  look_one_way(down, 0, -1);
-}
-
 JumpPointSearch::JumpPointSearch(const FanShape& fan, SearchLimits limits)
     : fan_{fan},
       limits_{limits},
       rising_(static_cast<std::size_t>(fan.columns + fan.rows), {fan.columns, -1}),
       falling_(rising_),
-      rows_ahead_{PassableGrid{fan}.rows()},
-      columns_ahead_{PassableGrid{fan}.columns()},
       open_{static_cast<std::uint32_t>(kStraightCost * std::max(fan.columns, fan.rows) +
                                        kDiagonalCost * kStretch),
             static_cast<std::size_t>(fan.columns) * static_cast<std::size_t>(fan.rows)},
@@ -137,8 +95,6 @@ void JumpPointSearch::begin(const PassableGrid& grid, PathPixel start, PathPixel
   full_ = false;
   open_.clear();
   node_count_ = 0;
-  rows_ahead_.look(grid.rows());
-  columns_ahead_.look(grid.columns());
   reach(goal, 0, 0xFF);
 }
 
@@ -250,10 +206,9 @@ int JumpPointSearch::free_diagonal(PathPixel from) const noexcept {
   const int count = std::min(kStretch, fan_diagonal(from, kDirection));
   const int word = from.column >> 6;
   const int other = (from.column + kAcross * count) >> 6;
-  std::uint64_t crowded = only_first<kDown>(lines_ahead<kDown>(rows.crowd(word), from.row) |
-                                                lines_ahead<kDown>(rows.crowd(other), from.row),
-                                            count);
-  for (; crowded != 0;) {
+  std::uint64_t crowded = only_first<kDown>(
+      rows.crowd<kDown>(from.row, word) | rows.crowd<kDown>(from.row, other), count);
+  while (crowded != 0) {
     const int away = nearest<kDown>(crowded);
     crowded &= ~line_bit<kDown>(away);
     const int row = from.row + kDown * away;
@@ -279,9 +234,7 @@ void JumpPointSearch::run_diagonal(std::int32_t node) noexcept {
   const int count = free_diagonal<kDirection>(begin);
   nodes_.data()[node].point.reach[kDirection / 2] = static_cast<std::int16_t>(before + count);
 
-  std::uint64_t rows =
-      lines_ahead<kDown>(rows_ahead_.ahead<kAcross>(begin.column >> 6), begin.row) |
-      lines_ahead<kDown>(grid_->rows().ragged<kAcross>(begin.column >> 6), begin.row);
+  std::uint64_t rows = grid_->rows().stopping<kDown, kAcross>(begin.row, begin.column >> 6);
   if (const int away = kDown * (start_.row - begin.row); away > 0 && away <= count) {
     rows |= line_bit<kDown>(away);
   }
@@ -290,9 +243,7 @@ void JumpPointSearch::run_diagonal(std::int32_t node) noexcept {
     rows &= ~line_bit<kDown>(away);
     run_straight<kSideways>(moved(begin, kDirection, away), cost + kDiagonalCost * away);
   }
-  std::uint64_t columns =
-      lines_ahead<kAcross>(columns_ahead_.ahead<kDown>(begin.row >> 6), begin.column) |
-      lines_ahead<kAcross>(grid_->columns().ragged<kDown>(begin.row >> 6), begin.column);
+  std::uint64_t columns = grid_->columns().stopping<kAcross, kDown>(begin.column, begin.row >> 6);
   if (const int away = kAcross * (start_.column - begin.column); away > 0 && away <= count) {
     columns |= line_bit<kAcross>(away);
     if (const PathPixel there = moved(begin, kDirection, away); same(there, start_)) {

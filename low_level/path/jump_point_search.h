@@ -52,19 +52,6 @@ class JumpPointSearch {
     std::int32_t node = 0;
     std::int32_t diagonal = -1;  // the direction; none: expand the node
   };
-  // Lines where a run up or down from a word of the line may stop for anything but the outline.
-  struct Outlook {
-    explicit Outlook(const BitLines& lines);
-    void look(const BitLines& lines) noexcept;
-    template <int kWay>
-    [[nodiscard]] const std::uint64_t* ahead(int word) const noexcept {
-      return (kWay > 0 ? up.data() : down.data()) + static_cast<std::size_t>(word) * stride;
-    }
-    std::size_t stride;
-    std::vector<std::uint64_t> up;
-    std::vector<std::uint64_t> down;
-    std::vector<std::uint64_t> far;  // of use while looking
-  };
   void begin(const PassableGrid& grid, PathPixel start, PathPixel goal) noexcept;
   [[nodiscard]] PathReason settle(PathPixel goal, std::uint32_t& expansions) noexcept;
   void expand(std::int32_t node) noexcept;
@@ -93,8 +80,6 @@ class JumpPointSearch {
   PathPixel start_;
   std::int32_t best_ = 0;  // cost of the cheapest path so far
   bool full_ = false;      // the open list had no room
-  Outlook rows_ahead_;
-  Outlook columns_ahead_;
   BucketQueue<Open> open_;
   std::vector<Node> nodes_;
   std::int32_t node_count_ = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
+#include <utility>
 
 #include "low_level/path/pixel_steps.h"
 
@@ -120,12 +121,11 @@ class PathWalk::Leg {
  public:
   Leg(const PassableGrid& grid, const TieBreak& rule, PathPixel at, PathPixel guide) noexcept
       : way_{at, guide},
-        straight_{step_of(way_.straight)},
-        diagonal_{step_of(way_.diagonal)},
-        change_straight_{rule.change_off(straight_.column, straight_.row)},
-        change_diagonal_{rule.change_off(diagonal_.column, diagonal_.row)},
-        off_{rule.off(at)},
-        is_upright_{straight_.column == 0},
+        steps_{step_of(way_.diagonal), step_of(way_.straight)},
+        changes_{rule.change_off(steps_[0].column, steps_[0].row),
+                 rule.change_off(steps_[1].column, steps_[1].row)},
+        lean_{2 * rule.off(at) + changes_[0] + changes_[1]},
+        is_upright_{steps_[1].column == 0},
         lines_{is_upright_ ? grid.columns() : grid.rows()},
         rule_{rule},
         at_{at} {}
@@ -134,15 +134,13 @@ class PathWalk::Leg {
   [[nodiscard]] int direction(bool straight) const noexcept {
     return straight ? way_.straight : way_.diagonal;
   }
+  // The rule's first key, of two steps. It says that the one with the lesser change ends nearer to
+  // the line if half way between both ends is to starboard of it.
   [[nodiscard]] bool prefers_straight() const noexcept {
-    const int straight = TieBreak::key(off_ + change_straight_);
-    const int diagonal = TieBreak::key(off_ + change_diagonal_);
-    if (straight != diagonal) {
-      return straight < diagonal;
+    if (changes_[0] == changes_[1]) {
+      return prefers_straight_by_what_is_left();
     }
-    const int left_s = rule_.left(moved(at_, straight_, 1));
-    const int left_d = rule_.left(moved(at_, diagonal_, 1));
-    return left_s < left_d || (left_s == left_d && way_.straight < way_.diagonal);
+    return (lean_ > 0) == (changes_[1] < changes_[0]);
   }
   // Whether the guide's way allows the step.
   [[nodiscard]] bool allows(bool straight) noexcept {
@@ -154,38 +152,52 @@ class PathWalk::Leg {
     }
     return refused_ == 0;
   }
+  // Nobody in sight allows a step before so many of the other kind.
+  void refuse(bool straight, int steps) noexcept { refused_by_all_[straight ? 1 : 0] = steps; }
+  [[nodiscard]] bool is_refused_by_all(bool straight) const noexcept {
+    return refused_by_all_[straight ? 1 : 0] > 0;
+  }
+  // How many straight steps must come before the guide's way allows a diagonal one.
+  [[nodiscard]] int straights_before_diagonal() const noexcept { return refused_; }
   void take(bool straight) noexcept {
-    at_ = moved(at_, straight ? straight_ : diagonal_, 1);
-    off_ += straight ? change_straight_ : change_diagonal_;
+    at_ = moved(at_, steps_[straight ? 1 : 0], 1);
+    lean_ += 2 * changes_[straight ? 1 : 0];
     way_.straights -= straight ? 1 : 0;
     way_.diagonals -= straight ? 0 : 1;
     refused_ = straight && refused_ > 0 ? refused_ - 1 : 0;
+    refused_by_all_[straight ? 1 : 0] = 0;
+    refused_by_all_[straight ? 0 : 1] -= 1;
   }
 
  private:
+  [[nodiscard]] bool prefers_straight_by_what_is_left() const noexcept {
+    const int diagonal = rule_.left(moved(at_, steps_[0], 1));
+    const int straight = rule_.left(moved(at_, steps_[1], 1));
+    return straight < diagonal || (straight == diagonal && way_.straight < way_.diagonal);
+  }
   // How many straight steps must come before a diagonal one.
   [[nodiscard]] int look_beside() const noexcept {
-    const int line = is_upright_ ? at_.column + diagonal_.column : at_.row + diagonal_.row;
+    const int line = is_upright_ ? at_.column + steps_[0].column : at_.row + steps_[0].row;
     const int place = is_upright_ ? at_.row : at_.column;
     if (!lines_.is_free(line, place)) {
       return 1;
     }
-    const int way = is_upright_ ? straight_.row : straight_.column;
+    const int way = is_upright_ ? steps_[1].row : steps_[1].column;
     const int blocked = lines_.blocked_between(line, place, place + way * (way_.straights + 1));
     return blocked == BitLines::kNone ? 0 : std::abs(blocked - place) + 1;
   }
 
+  // Of pairs, the diagonal step is the first.
   Way way_;
-  Step straight_;
-  Step diagonal_;
-  int change_straight_;
-  int change_diagonal_;
-  int off_;
+  std::array<Step, 2> steps_;
+  std::array<int, 2> changes_;
+  int lean_;  // twice how far half way between both ends is to starboard of the line
   bool is_upright_;
   const BitLines& lines_;
   const TieBreak& rule_;
   PathPixel at_;
   int refused_ = 0;  // straight steps for which a diagonal one is known to be impossible
+  std::array<int, 2> refused_by_all_{};
 };
 
 PathWalk::PathWalk(std::size_t capacity)
@@ -289,12 +301,27 @@ void PathWalk::look_round(bool may_turn) noexcept {
   waiting_count_ = kept;
 }
 
+// How many diagonal steps must come before any jump point in sight allows a straight one: one whose
+// diagonal does not reach so far does not.
+int PathWalk::diagonals_before_straight(PathPixel from) const noexcept {
+  int steps = kMaxPathPixels;
+  const JumpPoint* const sights = in_sight_.data();
+  for (std::size_t i = 0; i < in_sight_count_; ++i) {
+    const Way way{from, sights[i].pixel};
+    if (way.straights > 0) {
+      const int reach = sights[i].reach[static_cast<std::size_t>(opposite(way.diagonal) / 2)];
+      steps = std::min(steps, std::max(way.diagonals - reach, 0));
+    }
+  }
+  return steps;
+}
+
 void PathWalk::arrive(PathPixel pixel, std::int32_t left) noexcept {
   bool may_turn = false;
   const JumpPoint* const sights = in_sight_.data();
   for (std::size_t i = 0; i < in_sight_count_; ++i) {
-    may_turn = may_turn || same(pixel, sights[i].pixel) ||
-               (Way{pixel, sights[i].pixel}.is_line() && !Way{at_, sights[i].pixel}.is_line());
+    may_turn |= same(pixel, sights[i].pixel) ||
+                (is_line(pixel, sights[i].pixel) && !is_line(at_, sights[i].pixel));
   }
   at_ = pixel;
   left_ = left;
@@ -302,13 +329,14 @@ void PathWalk::arrive(PathPixel pixel, std::int32_t left) noexcept {
 }
 
 // A jump point in sight that the pixel leads to. There is one: the last on the way by which the
-// search came past the pixel.
-const JumpPoint& PathWalk::find_guide() const noexcept {
-  const JumpPoint* sight = in_sight_.data();
+// search came past the pixel. It is put first, where the next look finds it at once.
+const JumpPoint& PathWalk::find_guide() noexcept {
+  JumpPoint* sight = in_sight_.data();
   while (!leads_to(at_, *sight)) {
     ++sight;
   }
-  return *sight;
+  std::swap(in_sight_.front(), *sight);
+  return in_sight_.front();
 }
 
 // Takes steps as long as nothing can come into sight or get out of it.
@@ -340,7 +368,13 @@ void PathWalk::follow(const JumpPoint& guide, const TieBreak& rule,
     bool straight = leg.prefers_straight();
     if (!leg.allows(straight)) {
       // Another jump point in sight may allow it; the guide then guides no further.
-      guided = is_alone || !is_cheapest(leg.at(), leg.direction(straight), left);
+      guided = is_alone || leg.is_refused_by_all(straight) ||
+               !is_cheapest(leg.at(), leg.direction(straight), left);
+      if (guided && !leg.is_refused_by_all(straight)) {
+        // What blocks the line beside blocks it for all, until it is passed.
+        leg.refuse(straight, straight ? diagonals_before_straight(leg.at())
+                                      : leg.straights_before_diagonal());
+      }
       straight = straight != guided;
     }
     left -= cost_of(leg.direction(straight));

@@ -53,7 +53,8 @@ class PathWalk {
   void stride(const TieBreak& rule) noexcept;
   void follow(const JumpPoint& guide, const TieBreak& rule, const Choices& choices) noexcept;
   void choose(const JumpPoint& guide, Choices& choices) noexcept;
-  [[nodiscard]] const JumpPoint& find_guide() const noexcept;
+  [[nodiscard]] const JumpPoint& find_guide() noexcept;
+  [[nodiscard]] int diagonals_before_straight(PathPixel from) const noexcept;
   [[nodiscard]] bool leads_to(PathPixel from, const JumpPoint& point) const noexcept;
   [[nodiscard]] bool may_step(PathPixel from, int direction) const noexcept;
   [[nodiscard]] bool is_cheapest(PathPixel from, int direction, std::int32_t left) const noexcept;

@@ -38,6 +38,14 @@ namespace lodesman {
          (kDiagonalCost - kStraightCost) * std::min(columns, rows);
 }
 
+// In one direction, or the same.
+[[nodiscard]] constexpr bool is_line(PathPixel a, PathPixel b) noexcept {
+  const int columns = a.column - b.column;
+  const int rows = a.row - b.row;
+  return columns == 0 || rows == 0 || columns == rows || columns == -rows;
+}
+[[nodiscard]] constexpr int opposite(int direction) noexcept { return (direction + 4) % 8; }
+
 // The steps by which an empty map is crossed from one pixel to another at that cost.
 struct Way {
   int straight;  // the direction; one of the two beside the diagonal where there are no straights
@@ -53,8 +61,6 @@ struct Way {
     diagonal = columns > 0 ? (rows < 0 ? 1 : 3) : (rows > 0 ? 5 : 7);
     straight = std::abs(columns) > std::abs(rows) ? (columns > 0 ? 2 : 6) : (rows > 0 ? 4 : 0);
   }
-  // In one direction, or none.
-  [[nodiscard]] bool is_line() const noexcept { return straights == 0 || diagonals == 0; }
   void take(int direction) noexcept {
     straights -= direction == straight ? 1 : 0;
     diagonals -= direction == diagonal ? 1 : 0;
