@@ -40,13 +40,14 @@ class PathWalk::Choices {
   [[nodiscard]] bool are_of(const Way& way) const noexcept {
     return (directions_ & ~(1U << way.straight | 1U << way.diagonal)) == 0;
   }
+  // One that is none of the choices is never spent.
   [[nodiscard]] int times(int direction) const noexcept {
     for (int i = 0; i < count_; ++i) {
       if (choices_.data()[i].direction == direction) {
         return choices_.data()[i].times;
       }
     }
-    return 0;
+    return kMaxPathPixels;
   }
 
   // Orders the choices at a pixel; then best() is the one that the rule takes of those that have
@@ -119,6 +120,8 @@ class PathWalk::Choices {
 // the line beside is free as far as the way runs along it.
 class PathWalk::Leg {
  public:
+  using Times = std::array<int, 2>;  // how often a diagonal and a straight step may be taken
+
   Leg(const PassableGrid& grid, const TieBreak& rule, PathPixel at, PathPixel guide) noexcept
       : way_{at, guide},
         steps_{step_of(way_.diagonal), step_of(way_.straight)},
@@ -152,21 +155,34 @@ class PathWalk::Leg {
     }
     return refused_ == 0;
   }
-  // Nobody in sight allows a step before so many of the other kind.
-  void refuse(bool straight, int steps) noexcept { refused_by_all_[straight ? 1 : 0] = steps; }
-  [[nodiscard]] bool is_refused_by_all(bool straight) const noexcept {
-    return refused_by_all_[straight ? 1 : 0] > 0;
+  // How many straight steps must come before the guide's way allows the diagonal one that it does
+  // not allow now.
+  [[nodiscard]] int straights_before_diagonal() const noexcept { return std::max(refused_, 1); }
+  [[nodiscard]] bool is_line() const noexcept { return way_.straights == 0 || way_.diagonals == 0; }
+  // Takes steps as the rule prefers them, while the guide's way allows them and until one of the
+  // times is spent. Writes them to a path, and gives its end.
+  [[nodiscard]] PathPixel* go(PathPixel* path, const PathPixel* end, Times& times) noexcept {
+    while (path != end) {
+      const bool straight = prefers_straight();
+      if (!allows(straight)) {
+        break;
+      }
+      take(straight, 1);
+      *path++ = at_;
+      if (--times.data()[straight ? 1 : 0] == 0) {
+        break;
+      }
+    }
+    return path;
   }
-  // How many straight steps must come before the guide's way allows a diagonal one.
-  [[nodiscard]] int straights_before_diagonal() const noexcept { return refused_; }
-  void take(bool straight) noexcept {
-    at_ = moved(at_, steps_[straight ? 1 : 0], 1);
-    lean_ += 2 * changes_[straight ? 1 : 0];
-    way_.straights -= straight ? 1 : 0;
-    way_.diagonals -= straight ? 0 : 1;
-    refused_ = straight && refused_ > 0 ? refused_ - 1 : 0;
-    refused_by_all_[straight ? 1 : 0] = 0;
-    refused_by_all_[straight ? 0 : 1] -= 1;
+  // Takes so many of one kind.
+  [[nodiscard]] PathPixel* go(bool straight, int steps, PathPixel* path) noexcept {
+    const Step step = steps_.data()[straight ? 1 : 0];
+    for (int i = 1; i <= steps; ++i) {
+      *path++ = moved(at_, step, i);
+    }
+    take(straight, steps);
+    return path;
   }
 
  private:
@@ -174,6 +190,12 @@ class PathWalk::Leg {
     const int diagonal = rule_.left(moved(at_, steps_[0], 1));
     const int straight = rule_.left(moved(at_, steps_[1], 1));
     return straight < diagonal || (straight == diagonal && way_.straight < way_.diagonal);
+  }
+  void take(bool straight, int steps) noexcept {
+    at_ = moved(at_, steps_.data()[straight ? 1 : 0], steps);
+    lean_ += 2 * steps * changes_.data()[straight ? 1 : 0];
+    (straight ? way_.straights : way_.diagonals) -= steps;
+    refused_ = straight ? std::max(refused_ - steps, 0) : 0;
   }
   // How many straight steps must come before a diagonal one.
   [[nodiscard]] int look_beside() const noexcept {
@@ -197,7 +219,6 @@ class PathWalk::Leg {
   const TieBreak& rule_;
   PathPixel at_;
   int refused_ = 0;  // straight steps for which a diagonal one is known to be impossible
-  std::array<int, 2> refused_by_all_{};
 };
 
 PathWalk::PathWalk(std::size_t capacity)
@@ -219,7 +240,7 @@ std::span<const PathPixel> PathWalk::walk(const PassableGrid& grid) noexcept {
   const TieBreak rule{start_, goal_};
   path_.data()[0] = at_;
   path_count_ = 1;
-  look_round(true);
+  arrive(start_, left_);
   while (!same(at_, goal_)) {
     if (path_count_ == path_.size()) {
       return {};
@@ -274,9 +295,11 @@ bool PathWalk::is_cheapest(PathPixel from, int direction, std::int32_t left) con
 }
 
 // Sorts the jump points anew: those whose cost and way fit what is left are in sight; those that
-// would be too cheap wait, for something lies between; those too dear are past. Where nothing can
-// have come into sight, the waiting ones are let be.
-void PathWalk::look_round(bool may_turn) noexcept {
+// would be too cheap wait, for something lies between; those too dear are past, for good: a step
+// on a cheapest path never brings one nearer by more than the step costs.
+void PathWalk::arrive(PathPixel pixel, std::int32_t left) noexcept {
+  at_ = pixel;
+  left_ = left;
   JumpPoint* const sights = in_sight_.data();
   JumpPoint* const waiting = waiting_.data();
   std::size_t kept = 0;
@@ -286,9 +309,6 @@ void PathWalk::look_round(bool may_turn) noexcept {
     }
   }
   in_sight_count_ = kept;
-  if (!may_turn) {
-    return;
-  }
   kept = 0;
   for (std::size_t i = 0; i < waiting_count_; ++i) {
     const std::int32_t cost = octile(at_, waiting[i].pixel) + waiting[i].cost;
@@ -301,31 +321,26 @@ void PathWalk::look_round(bool may_turn) noexcept {
   waiting_count_ = kept;
 }
 
-// How many diagonal steps must come before any jump point in sight allows a straight one: one whose
-// diagonal does not reach so far does not.
-int PathWalk::diagonals_before_straight(PathPixel from) const noexcept {
+// How many steps of the other kind must come before any jump point in sight allows one that none
+// allows now.
+int PathWalk::steps_before(bool straight, const Leg& leg) const noexcept {
+  if (in_sight_count_ == 1 && leg.is_line()) {
+    return kMaxPathPixels;
+  }
+  if (!straight) {
+    return leg.straights_before_diagonal();  // what blocks the line beside blocks it for all
+  }
+  // A diagonal that does not reach so far yet allows nothing.
   int steps = kMaxPathPixels;
   const JumpPoint* const sights = in_sight_.data();
   for (std::size_t i = 0; i < in_sight_count_; ++i) {
-    const Way way{from, sights[i].pixel};
+    const Way way{leg.at(), sights[i].pixel};
     if (way.straights > 0) {
       const int reach = sights[i].reach[static_cast<std::size_t>(opposite(way.diagonal) / 2)];
-      steps = std::min(steps, std::max(way.diagonals - reach, 0));
+      steps = std::min(steps, std::max(way.diagonals - reach, 1));
     }
   }
   return steps;
-}
-
-void PathWalk::arrive(PathPixel pixel, std::int32_t left) noexcept {
-  bool may_turn = false;
-  const JumpPoint* const sights = in_sight_.data();
-  for (std::size_t i = 0; i < in_sight_count_; ++i) {
-    may_turn |= same(pixel, sights[i].pixel) ||
-                (is_line(pixel, sights[i].pixel) && !is_line(at_, sights[i].pixel));
-  }
-  at_ = pixel;
-  left_ = left;
-  look_round(may_turn);
 }
 
 // A jump point in sight that the pixel leads to. There is one: the last on the way by which the
@@ -358,29 +373,32 @@ void PathWalk::stride(const TieBreak& rule) noexcept {
 void PathWalk::follow(const JumpPoint& guide, const TieBreak& rule,
                       const Choices& choices) noexcept {
   Leg leg{*grid_, rule, at_, guide.pixel};
-  int straights = choices.times(leg.direction(true));
-  int diagonals = choices.times(leg.direction(false));
+  Leg::Times times{choices.times(leg.direction(false)), choices.times(leg.direction(true))};
   const bool is_alone = in_sight_count_ == 1;
-  std::int32_t left = left_;
   PathPixel* path = path_.data() + path_count_;
   PathPixel* const end = path_.data() + path_.size();
-  for (bool guided = true, spent = false; guided && !spent && path != end;) {
-    bool straight = leg.prefers_straight();
-    if (!leg.allows(straight)) {
-      // Another jump point in sight may allow it; the guide then guides no further.
-      guided = is_alone || leg.is_refused_by_all(straight) ||
-               !is_cheapest(leg.at(), leg.direction(straight), left);
-      if (guided && !leg.is_refused_by_all(straight)) {
-        // What blocks the line beside blocks it for all, until it is passed.
-        leg.refuse(straight, straight ? diagonals_before_straight(leg.at())
-                                      : leg.straights_before_diagonal());
-      }
-      straight = straight != guided;
+  std::int32_t left = 0;
+  for (bool guided = true; guided;) {
+    path = leg.go(path, end, times);
+    left = octile(leg.at(), guide.pixel) + guide.cost;
+    if (times[0] == 0 || times[1] == 0 || path == end) {
+      break;
     }
-    left -= cost_of(leg.direction(straight));
-    spent = (straight ? --straights : --diagonals) == 0;
-    leg.take(straight);
-    *path++ = leg.at();
+    // The guide does not allow what the rule prefers. Another jump point in sight may; the guide
+    // then guides no further.
+    bool straight = leg.prefers_straight();
+    int steps = 1;
+    guided = is_alone || !is_cheapest(leg.at(), leg.direction(straight), left);
+    if (guided) {
+      steps = steps_before(straight, leg);
+      straight = !straight;
+    }
+    int& rest = times[straight ? 1 : 0];
+    steps = std::min({steps, rest, static_cast<int>(end - path)});
+    rest -= steps;
+    left -= steps * cost_of(leg.direction(straight));
+    path = leg.go(straight, steps, path);
+    guided = guided && rest > 0 && path != end;
   }
   path_count_ = static_cast<std::size_t>(path - path_.data());
   arrive(leg.at(), left);

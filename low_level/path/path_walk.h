@@ -48,13 +48,12 @@ class PathWalk {
   class Choices;
   class Leg;
 
-  void look_round(bool may_turn) noexcept;
   void arrive(PathPixel pixel, std::int32_t left) noexcept;
   void stride(const TieBreak& rule) noexcept;
   void follow(const JumpPoint& guide, const TieBreak& rule, const Choices& choices) noexcept;
   void choose(const JumpPoint& guide, Choices& choices) noexcept;
   [[nodiscard]] const JumpPoint& find_guide() noexcept;
-  [[nodiscard]] int diagonals_before_straight(PathPixel from) const noexcept;
+  [[nodiscard]] int steps_before(bool straight, const Leg& leg) const noexcept;
   [[nodiscard]] bool leads_to(PathPixel from, const JumpPoint& point) const noexcept;
   [[nodiscard]] bool may_step(PathPixel from, int direction) const noexcept;
   [[nodiscard]] bool is_cheapest(PathPixel from, int direction, std::int32_t left) const noexcept;
