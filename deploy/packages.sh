@@ -5,6 +5,7 @@ build_packages="g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev libs
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libtomlplusplus-dev libcli11-dev
   nlohmann-json3-dev libgeographiclib-dev libxxhash-dev libgnuplot-iostream-dev gnuplot-nox"
 test_packages="catch2"
+bench_packages="libompl-dev"  # of tests/bench/gate.sh alone
 
 say() { echo "lodesman: $*" >&2; }
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/bench/frames_file.h"
 #include "tests/bench/measure.h"
 #include "tests/bench/report.h"
 
@@ -26,6 +27,8 @@ struct Options {
   int repetitions = 5;
   std::string json;
   std::string markdown;
+  std::string file;
+  double gate = 0.0;
 };
 
 FanShape fan_of(int factor) {
@@ -80,17 +83,37 @@ void replace_tables(const std::string& path, const std::string& tables) {
   std::ofstream{path} << text;
 }
 
-void run(const Options& options) {
+// The main table's frames: random ones, or those of a file.
+std::vector<FrameTimes> measure_frames(const Options& options) {
   Workload workload;
   workload.seed = options.seed;
   workload.frames = options.frames;
   workload.repetitions = options.repetitions;
-  const std::vector<FrameTimes> frames = measure(workload);
+  return options.file.empty() ? measure(workload) : measure(workload, read_frames(options.file));
+}
+
+std::string heading_of(const Options& options, std::size_t frames) {
+  const std::string from =
+      options.file.empty() ? "Seed " + std::to_string(options.seed) : options.file;
+  return from + ", " + std::to_string(frames) + " frames.\n\n";
+}
+
+// Whether the step is faster than the reference A* by the factor asked for. The table says why not.
+bool passes(const Options& options) {
+  const std::vector<FrameTimes> frames = measure_frames(options);
+  const double factor = reference_per_step(frames, 0.5);
+  std::printf("%s%s\n%.0f times as fast as the reference A* at the median; asked for: %.0f\n",
+              heading_of(options, frames.size()).c_str(), table_of(frames).c_str(), factor,
+              options.gate);
+  return factor >= options.gate;
+}
+
+void run(const Options& options) {
+  const std::vector<FrameTimes> frames = measure_frames(options);
   const std::vector<Growth> grid = grow_grid(options);
   const std::vector<Growth> obstacles = grow_obstacles(options);
-  const std::string tables = "Seed " + std::to_string(options.seed) + ", " +
-                             std::to_string(frames.size()) + " frames.\n\n" + table_of(frames) +
-                             "\n" + table_of(grid) + "\n" + table_of(obstacles);
+  const std::string tables = heading_of(options, frames.size()) + table_of(frames) + "\n" +
+                             table_of(grid) + "\n" + table_of(obstacles);
   std::fputs(tables.c_str(), stdout);
   if (!options.markdown.empty()) {
     replace_tables(options.markdown, tables);
@@ -116,8 +139,16 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--json", options.json, "Write what was measured to this file");
   app.add_option("--markdown", options.markdown, "Replace the tables in this file");
+  app.add_option("--file", options.file, "Frames for the main table instead of random ones");
+  app.add_option("--gate", options.gate,
+                 "Only the main table; fails unless the step is so many times as fast as the "
+                 "reference A* at the median");
   CLI11_PARSE(app, argc, argv);
   try {
+    std::fprintf(stderr, "bench_path: seed %u\n", options.seed);
+    if (options.gate > 0.0) {
+      return lodesman::bench::passes(options) ? 0 : 1;
+    }
     lodesman::bench::run(options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_path: %s\n", error.what());

@@ -4,11 +4,13 @@
 #include <time.h>
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "low_level/path/path_search.h"
 #include "tests/bench/boost_a_star.h"
+#include "tests/bench/ompl_rrt_connect.h"
 #include "tests/bench/reference_a_star.h"
 
 namespace lodesman::bench {
@@ -33,7 +35,11 @@ double thread_us() noexcept {
 class Bench {
  public:
   explicit Bench(const FanShape& fan)
-      : grid_{fan}, search_{Geometry::k4, {}, fan}, reference_{fan}, boost_{fan} {}
+      : grid_{fan},
+        search_{Geometry::k4, {}, fan},
+        reference_{fan},
+        boost_{fan},
+        ompl_{OmplRrtConnect::make(grid_)} {}
 
   [[nodiscard]] FrameTimes time(const RandomFrame& frame, const Workload& workload) {
     for (std::vector<double>& times : us_) {
@@ -76,6 +82,13 @@ class Bench {
       require_same(ours, theirs, "reference A*");
       time(Column::kBoost, 1, [&] { theirs = boost_.search(grid_, frame.start, frame.goal); });
       require_same(ours, theirs, "Boost A*");
+      if (ompl_ != nullptr) {
+        bool found = false;
+        time(Column::kOmpl, 1, [&] { found = ompl_->search(frame.start, frame.goal); });
+        if (found && ours.reason != PathReason::kFound) {
+          throw std::runtime_error("OMPL finds a path where there is none");
+        }
+      }
     }
   }
 
@@ -99,6 +112,7 @@ class Bench {
   PathSearch search_;
   ReferenceAStar reference_;
   BoostAStar boost_;
+  std::unique_ptr<OmplRrtConnect> ompl_;
   std::vector<std::uint64_t> copy_;
   volatile std::uint64_t sink_ = 0;
   std::array<std::vector<double>, kColumns> us_;
@@ -111,13 +125,22 @@ std::vector<FrameTimes> measure(const Workload& workload) {
   for (std::size_t i = 0; workload.kinds.empty() && i < testing::kFrameKindNames.size(); ++i) {
     kinds.push_back(static_cast<FrameKind>(i));
   }
-  FrameMaker frames{workload.seed, workload.fan, workload.times};
-  Bench bench{workload.fan};
-  std::vector<FrameTimes> all;
+  FrameMaker maker{workload.seed, workload.fan, workload.times};
+  std::vector<RandomFrame> frames;
   for (int i = 0; i < workload.frames; ++i) {
     for (const FrameKind kind : kinds) {
-      all.push_back(bench.time(frames.make(kind), workload));
+      frames.push_back(maker.make(kind));
     }
+  }
+  return measure(workload, frames);
+}
+
+std::vector<FrameTimes> measure(const Workload& workload, const std::vector<RandomFrame>& frames) {
+  Bench bench{workload.fan};
+  std::vector<FrameTimes> all;
+  all.reserve(frames.size());
+  for (const RandomFrame& frame : frames) {
+    all.push_back(bench.time(frame, workload));
   }
   return all;
 }

@@ -19,11 +19,12 @@ enum class Column : std::uint8_t {
   kSearch,     // ours: bitmap to path
   kReference,  // reference_a_star.h: bitmap to path
   kBoost,      // boost_a_star.h: bitmap to path
+  kOmpl,       // ompl_rrt_connect.h: bitmap to any path, or its time box; 0 where it is left out
   kCopy,       // copying the bitmap of rows, as a measure of the machine
 };
-inline constexpr std::size_t kColumns = 5;
+inline constexpr std::size_t kColumns = 6;
 inline constexpr std::array<std::string_view, kColumns> kColumnNames{
-    "step", "search", "reference A*", "Boost A*", "copy"};
+    "step", "search", "reference A*", "Boost A*", "OMPL RRTConnect", "copy"};
 
 // A frame's median times.
 struct FrameTimes {
@@ -38,10 +39,13 @@ struct Workload {
   int frames = 25;                        // of each kind
   std::vector<testing::FrameKind> kinds;  // empty: all
   int repetitions = 5;                    // of each planner on each frame, taking turns
-  bool with_others = true;                // reference and Boost
+  bool with_others = true;                // reference, Boost and OMPL
 };
 
 // Throws std::runtime_error where two planners disagree on a cost.
 [[nodiscard]] std::vector<FrameTimes> measure(const Workload& workload);
+// The same on given frames; of the workload only fan, repetitions and with_others are asked.
+[[nodiscard]] std::vector<FrameTimes> measure(const Workload& workload,
+                                              const std::vector<testing::RandomFrame>& frames);
 
 }  // namespace lodesman::bench

@@ -42,12 +42,19 @@ std::string row(const std::string& name, std::span<const FrameTimes> frames, dou
     us[i] = quantile(frames, static_cast<Column>(i), share);
     text += " | " + number(us[i]);
   }
-  const double step = us[0];
-  return text + " | " + number(us[2] / step) + " | " + number(us[3] / step) + " | " +
-         number(us[2] / us[1]) + " | " + number(step / us[4]) + " |\n";
+  const auto at = [&us](Column column) { return us[static_cast<std::size_t>(column)]; };
+  const double step = at(Column::kStep);
+  return text + " | " + number(at(Column::kReference) / step) + " | " +
+         number(at(Column::kBoost) / step) + " | " +
+         number(at(Column::kReference) / at(Column::kSearch)) + " | " +
+         number(step / at(Column::kCopy)) + " |\n";
 }
 
 }  // namespace
+
+double reference_per_step(std::span<const FrameTimes> frames, double share) {
+  return quantile(frames, Column::kReference, share) / quantile(frames, Column::kStep, share);
+}
 
 Json to_json(std::span<const FrameTimes> frames) {
   Json json;
@@ -82,9 +89,10 @@ Json to_json(std::span<const Growth> growth) {
 
 std::string table_of(std::span<const FrameTimes> frames) {
   std::string text =
-      "| frames | our step us | our search us | reference A* us | Boost A* us | copy us "
-      "| reference / step | Boost / step | reference / search | step / copy |\n"
-      "|---|---|---|---|---|---|---|---|---|---|\n";
+      "| frames | our step us | our search us | reference A* us | Boost A* us "
+      "| OMPL RRTConnect us | copy us | reference / step | Boost / step | reference / search "
+      "| step / copy |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n";
   text += row("all, median", frames, 0.5);
   text += row("all, p99", frames, 0.99);
   text += row("all, worst", frames, 1.0);

@@ -19,6 +19,9 @@ struct Growth {
   std::vector<FrameTimes> frames;
 };
 
+// How many times as long the reference A* takes as our step, at this share of the frames.
+[[nodiscard]] double reference_per_step(std::span<const FrameTimes> frames, double share);
+
 [[nodiscard]] nlohmann::ordered_json to_json(std::span<const FrameTimes> frames);
 [[nodiscard]] nlohmann::ordered_json to_json(std::span<const Growth> growth);
 
