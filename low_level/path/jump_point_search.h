@@ -37,6 +37,14 @@ class JumpPointSearch {
   [[nodiscard]] SearchResult search(const PassableGrid& grid, PathPixel start,
                                     PathPixel goal) noexcept;
 
+  // Of the last search, for pictures: the jump points that it reached, `i` from 0.
+  [[nodiscard]] std::size_t jump_point_count() const noexcept {
+    return static_cast<std::size_t>(node_count_);
+  }
+  [[nodiscard]] const JumpPoint& jump_point(std::size_t i) const noexcept {
+    return nodes_[i].point;
+  }
+
  private:
   static constexpr std::int32_t kNone = -1;
   using Directions = std::uint8_t;  // a bit a direction of kSteps

@@ -12,6 +12,7 @@
 
 #include "tests/bench/frames_file.h"
 #include "tests/bench/measure.h"
+#include "tests/bench/pictures.h"
 #include "tests/bench/report.h"
 
 namespace lodesman::bench {
@@ -28,6 +29,7 @@ struct Options {
   std::string json;
   std::string markdown;
   std::string file;
+  std::string pictures;
   double gate = 0.0;
 };
 
@@ -140,12 +142,20 @@ int main(int argc, char** argv) {
   app.add_option("--json", options.json, "Write what was measured to this file");
   app.add_option("--markdown", options.markdown, "Replace the tables in this file");
   app.add_option("--file", options.file, "Frames for the main table instead of random ones");
+  app.add_option("--pictures", options.pictures,
+                 "Only draw what is looked at on one random frame, into this folder");
   app.add_option("--gate", options.gate,
                  "Only the main table; fails unless the step is so many times as fast as the "
                  "reference A* at the median");
   CLI11_PARSE(app, argc, argv);
   try {
     std::fprintf(stderr, "bench_path: seed %u\n", options.seed);
+    if (!options.pictures.empty()) {
+      lodesman::testing::FrameMaker frames{options.seed};
+      lodesman::bench::draw_pictures(frames.make(lodesman::testing::FrameKind::kMulti),
+                                     options.pictures);
+      return 0;
+    }
     if (options.gate > 0.0) {
       return lodesman::bench::passes(options) ? 0 : 1;
     }

@@ -18,6 +18,11 @@ class ReferenceAStar {
 
   [[nodiscard]] SearchResult search(const PassableGrid& grid, PathPixel start, PathPixel goal);
 
+  // Of the last search.
+  [[nodiscard]] bool has_expanded(int column, int row) const noexcept {
+    return nodes_[static_cast<std::size_t>(row * fan_.columns + column)].stamp == stamp_ + 1;
+  }
+
  private:
   struct Node {
     std::uint32_t stamp = 0;  // of the search that reached it; one more once it is expanded
