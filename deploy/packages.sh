@@ -5,6 +5,7 @@ build_packages="g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev libs
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libtomlplusplus-dev libcli11-dev
   nlohmann-json3-dev libgeographiclib-dev libxxhash-dev libgnuplot-iostream-dev gnuplot-nox"
 test_packages="catch2"
+tidy_packages="clang-tidy"
 bench_packages="libompl-dev"  # of tests/bench/gate.sh alone
 
 say() { echo "lodesman: $*" >&2; }
@@ -25,7 +26,7 @@ install_packages() {
   say "installing$missing"
   as_root apt-get update -qq
   as_root env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y -qq --no-install-recommends $missing >/dev/null
+    apt-get install -y -qq -o Dpkg::Use-Pty=0 --no-install-recommends $missing >/dev/null
 }
 
 # Runs a command quietly; its output is shown only when it fails.

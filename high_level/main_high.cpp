@@ -3,7 +3,9 @@
 // command socket.
 #include <spdlog/spdlog.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "deploy/cli/run/process_main.h"
 #include "deploy/cli/run/settings.h"
@@ -15,6 +17,10 @@
 namespace lodesman {
 namespace {
 
+const std::map<std::string, OperatorOrder> kOrders{{"start", OperatorOrder::kStart},
+                                                   {"abort", OperatorOrder::kAbort},
+                                                   {"hold", OperatorOrder::kHold},
+                                                   {"resume", OperatorOrder::kResume}};
 constexpr Duration kSegmentPatience = std::chrono::seconds{5};
 
 // Answers the operator; lives on the command socket's thread.
@@ -31,9 +37,8 @@ class OperatorDesk {
     if (command == "status") {
       return status().dump();
     }
-    if (command == "start" || command == "abort") {
-      const auto order = command == "start" ? OperatorOrder::kStart : OperatorOrder::kAbort;
-      orders_.publish({order}, SteadyClock{}.now());
+    if (const auto order = kOrders.find(command); order != kOrders.end()) {
+      orders_.publish({order->second}, SteadyClock{}.now());
       return nlohmann::json{{"ok", true}}.dump();
     }
     return nlohmann::json{{"ok", false}, {"error", "unknown command: " + command}}.dump();

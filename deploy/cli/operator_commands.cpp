@@ -84,6 +84,8 @@ void add(CLI::App& root, const std::string& name, const std::string& description
 void add_operator_commands(CLI::App& root, int& exit_status) {
   add(root, "start", "Start the mission of a running boat", exit_status);
   add(root, "abort", "Thrusters neutral, until a new start", exit_status);
+  add(root, "hold", "Stay where it is, and make way for what moves", exit_status);
+  add(root, "resume", "Go on with the mission after a hold", exit_status);
   add(root, "status", "What a running boat is doing", exit_status);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "high_level/guidance/current.h"
 #include "mid_level/messages/obstacle_distance.h"
 
 namespace lodesman {
@@ -26,6 +27,7 @@ constexpr double kArrived_m = 0.4;
 constexpr double kAim_m = 0.2;
 constexpr double kSharpTurn_rad = 0.8;
 constexpr double kSharpTurnShare = 0.3;
+constexpr double kStillWater_m_s = 0.01;  // slower is none
 
 // The manoeuvres: courses off the route, each held for a length of way, at a speed.
 constexpr std::array kOffsets_deg{15.0,  -15.0, 30.0,  -30.0, 45.0,   -45.0, 65.0,
@@ -33,23 +35,38 @@ constexpr std::array kOffsets_deg{15.0,  -15.0, 30.0,  -30.0, 45.0,   -45.0, 65.
 constexpr std::array kLengths_m{2.0, 5.0, 12.0};
 constexpr std::array kSpeedShares{1.0, 0.5};
 constexpr std::array kSlowShares{0.6, 0.3, 0.0, -0.4};
+constexpr std::array kFlightLengths_m{2.0, 5.0};
 
 // Costs, as seconds of delay.
 constexpr double kNoLimit_s = std::numeric_limits<double>::infinity();
-constexpr double kCollision_s = 1000.0;
-constexpr double kCloseness_s = 15.0;  // a second at no clearance at all
-constexpr double kFading_s = 40.0;     // what is far ahead may turn out otherwise
-constexpr double kAhead_s = 6.0;       // crossing close ahead of something that moves
+constexpr double kCollision_s = 2000.0;  // a metre nearer than the core ...
+constexpr double kCollisionMax_m = 0.5;  // ... up to this
+constexpr double kCloseness_s = 15.0;    // a second at no clearance at all
+constexpr double kFading_s = 40.0;       // what is far ahead may turn out otherwise
+constexpr double kAhead_s = 6.0;         // crossing close ahead of something that moves
 constexpr double kAheadRange_m = 8.0;
 constexpr double kAheadBeside_m = 1.0;
 constexpr double kMoving_m_s = 0.05;
+constexpr double kBlind_s = 10.0;  // a metre astern, where no sonar looks
 constexpr double kToPort_s = 0.5;  // to starboard where nothing else decides
 
 [[nodiscard]] Vec direction(double heading_rad) noexcept {
   return {std::sin(heading_rad), std::cos(heading_rad)};
 }
 
+[[nodiscard]] bool is_flight(const Manoeuvre& manoeuvre) noexcept {
+  return std::abs(manoeuvre.speed_share) > 1.0;
+}
+
 [[nodiscard]] double heading_of(const Vec& way) noexcept { return std::atan2(way.x(), way.y()); }
+
+// The heading that leads along a way in the current, at that speed through the water.
+[[nodiscard]] double steered_for(const Vec& way, const OwnMotion& own, double speed_m_s) noexcept {
+  if (own.current_m_s.squaredNorm() < kStillWater_m_s * kStillWater_m_s) {
+    return heading_of(way);
+  }
+  return heading_of(velocity_for_course(way.normalized(), speed_m_s, own.current_m_s));
+}
 
 [[nodiscard]] double larger_sigma(double xx, double xy, double yy) noexcept {
   const double mean = 0.5 * (xx + yy);
@@ -93,6 +110,9 @@ const ManoeuvreChooser::Choice& ManoeuvreChooser::choose(Time now, const OwnMoti
   // With nothing in the way no other manoeuvre is there sooner.
   if (choice_.of_route.delay_s > 0.0) {
     consider_all();
+    if (choice_.foresight.collides) {
+      consider_flight();
+    }
     stay_with_last();
   }
   choice_.changed = !(choice_.manoeuvre == kept_);
@@ -118,10 +138,32 @@ void ManoeuvreChooser::consider_all() noexcept {
   }
 }
 
+// Faster than the mission goes, ahead or astern.
+void ManoeuvreChooser::consider_flight() noexcept {
+  const double share = options_.flight_speed_m_s / response_.speed_max_m_s;
+  if (share <= 1.0) {
+    return;
+  }
+  for (const double length_m : kFlightLengths_m) {
+    const double for_s = length_m / options_.flight_speed_m_s;
+    for (const double sign : {1.0, -1.0}) {
+      consider({0.0, for_s, sign * share});
+      for (const double offset_deg : kOffsets_deg) {
+        consider({to_rad(offset_deg), for_s, sign * share});
+      }
+    }
+  }
+}
+
 void ManoeuvreChooser::stay_with_last() noexcept {
-  // The manoeuvre under way is left only for one that is better by the stated gain.
+  // The manoeuvre under way is left only for one that is better by the stated gain; a flight as
+  // soon as anything calmer keeps clear.
   Manoeuvre kept = kept_;
-  kept.speed_share = std::min(kept.speed_share, speed_share_max_);
+  if (!is_flight(kept)) {
+    kept.speed_share = std::min(kept.speed_share, speed_share_max_);
+  } else if (!is_flight(choice_.manoeuvre)) {
+    return;
+  }
   const Foresight of_kept = foresee(kept, kNoLimit_s, nullptr);
   if (of_kept.cost_s <= choice_.foresight.cost_s + options_.switch_gain_s) {
     choice_.manoeuvre = kept;
@@ -136,7 +178,7 @@ void ManoeuvreChooser::foresee_hazards(Time now, const Tracks& tracks) noexcept 
     const Track& track = tracks.tracks[i];
     Hazard& hazard = hazards_[hazard_count_++];
     hazard.track = &track;
-    hazard.velocity_m_s = {track.velocity_x_m_s, track.velocity_y_m_s};
+    hazard.velocity_m_s = track.sure_share() * Vec{track.velocity_x_m_s, track.velocity_y_m_s};
     hazard.age_s = to_seconds(now - track.last_seen);
     hazard.place_sigma_m = larger_sigma(track.place_xx_m2, track.place_xy_m2, track.place_yy_m2);
     hazard.velocity_sigma_m_s =
@@ -159,12 +201,12 @@ void ManoeuvreChooser::consider(const Manoeuvre& manoeuvre) noexcept {
 // One manoeuvre on its way through the future: where the vehicle is, and what it has cost.
 struct ManoeuvreChooser::Voyage {
   OwnMotion own;
-  RoutePlace place;         // on the route
-  double course_rad = 0.0;  // steered while the manoeuvre lasts
+  RoutePlace place;          // on the route
+  double steered_rad = 0.0;  // while the manoeuvre lasts
   double t_s = 0.0;
   double cost_s = 0.0;  // beside the time
   bool arrived = false;
-  std::array<bool, kMaxObstacles> hit{};
+  std::array<double, kMaxObstacles> depth_m{};  // the deepest yet, of each hazard
   Foresight seen;
 };
 
@@ -185,7 +227,8 @@ Foresight ManoeuvreChooser::foresee(const Manoeuvre& manoeuvre, double cost_max_
     meet_hazards(voyage);
     // No cheaper any more than what is known already, however it goes on.
     const double least_left_m = (route.end() - voyage.own.p_W).norm();
-    if (voyage.cost_s + voyage.t_s + least_left_m / response_.speed_max_m_s > cost_max_s) {
+    const double fastest_m_s = response_.speed_max_m_s + own_.current_m_s.norm();
+    if (voyage.cost_s + voyage.t_s + least_left_m / fastest_m_s > cost_max_s) {
       voyage.seen.cost_s = kNoLimit_s;
       return voyage.seen;
     }
@@ -213,7 +256,8 @@ ManoeuvreChooser::Voyage ManoeuvreChooser::set_out(const Manoeuvre& manoeuvre) c
   voyage.place = nearest_place(*route_, own_.p_W, {}, std::numeric_limits<double>::infinity());
   const Vec aim = point_ahead(*route_, voyage.place, response_.look_ahead_m) - own_.p_W;
   const double route_rad = aim.norm() > kAim_m ? heading_of(aim) : own_.heading_rad;
-  voyage.course_rad = route_rad + manoeuvre.offset_rad;
+  voyage.steered_rad = steered_for(direction(route_rad + manoeuvre.offset_rad), own_,
+                                   std::abs(manoeuvre.speed_share) * response_.speed_max_m_s);
   voyage.cost_s = manoeuvre.offset_rad < 0.0 ? kToPort_s : 0.0;
   return voyage;
 }
@@ -233,7 +277,8 @@ void ManoeuvreChooser::sail_on(const Manoeuvre& manoeuvre, Voyage& voyage) const
   }
   const bool still = at_end && !aside;
   const Vec aim = point_ahead(route, voyage.place, r.look_ahead_m) - own.p_W;
-  const double wanted_rad = aside ? voyage.course_rad : heading_of(aim);
+  const double wanted_rad =
+      aside ? voyage.steered_rad : steered_for(aim, own, speed_share_max_ * r.speed_max_m_s);
   const double deviation_rad = wrap_to_pi(wanted_rad - own.heading_rad);
   double speed_m_s = (aside ? manoeuvre.speed_share : speed_share_max_) * r.speed_max_m_s;
   if (still) {
@@ -243,10 +288,15 @@ void ManoeuvreChooser::sail_on(const Manoeuvre& manoeuvre, Voyage& voyage) const
   }
   const double turn_rad_s = std::clamp(r.heading_gain_per_s * deviation_rad, -r.turn_rate_max_rad_s,
                                        r.turn_rate_max_rad_s);
-  own.heading_rad += still ? 0.0 : turn_rad_s * step_s_;
-  own.surge_m_s += (speed_m_s - own.surge_m_s) * (1.0 - std::exp(-step_s_ / r.surge_time_s));
-  own.p_W += own.surge_m_s * step_s_ * direction(own.heading_rad);
   voyage.t_s += step_s_;
+  own.surge_m_s += (speed_m_s - own.surge_m_s) * (1.0 - std::exp(-step_s_ / r.surge_time_s));
+  voyage.cost_s += kBlind_s * std::max(0.0, -own.surge_m_s) * step_s_;
+  if (still) {
+    own.p_W += own.surge_m_s * step_s_ * direction(own.heading_rad);  // held against the current
+    return;
+  }
+  own.heading_rad += turn_rad_s * step_s_;
+  own.p_W += step_s_ * (own.surge_m_s * direction(own.heading_rad) + own.current_m_s);
 }
 
 // What the obstacles cost where the vehicle is now, wherever they are by then.
@@ -269,10 +319,12 @@ void ManoeuvreChooser::meet_hazards(Voyage& voyage) const noexcept {
       const double lack = (wanted_m - clearance_m) / wanted_m;
       voyage.cost_s += kCloseness_s * lack * lack * fading * step_s_;
     }
-    if (clearance_m < options_.core_m && !voyage.hit[i]) {
-      voyage.hit[i] = true;
+    // Graded by its depth, so that a little difference never decides everything.
+    const double depth_m = std::min(options_.core_m - clearance_m, kCollisionMax_m);
+    if (depth_m > voyage.depth_m[i]) {
+      voyage.cost_s += kCollision_s * (depth_m - voyage.depth_m[i]) * fading;
+      voyage.depth_m[i] = depth_m;
       voyage.seen.collides = true;
-      voyage.cost_s += kCollision_s * fading;
     }
     voyage.cost_s += cost_of_crossing_ahead_s(hazard, after_s, voyage.own) * fading * step_s_;
   }

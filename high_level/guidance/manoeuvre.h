@@ -29,7 +29,8 @@ struct VehicleResponse {
 struct OwnMotion {
   Eigen::Vector2d p_W = Eigen::Vector2d::Zero();  // [m] [world]
   double heading_rad = 0.0;
-  double surge_m_s = 0.0;
+  double surge_m_s = 0.0;                                 // through the water
+  Eigen::Vector2d current_m_s = Eigen::Vector2d::Zero();  // [world] of the water
 };
 
 struct ManoeuvreOptions {
@@ -38,13 +39,15 @@ struct ManoeuvreOptions {
   double doubt_sigmas = 0.0;   // [-] of a track's covariance that are kept clear of ...
   double doubt_max_m = 0.0;    // [m] ... up to this
   double switch_gain_s = 0.0;  // [s] another manoeuvre must be better by this
+  double flight_speed_m_s =
+      0.0;  // [m/s] ahead or astern, where nothing slower keeps clear; 0: none
 };
 
 // First another course for a while, then back to the route.
 struct Manoeuvre {
   double offset_rad = 0.0;   // [rad] off the route's course, clockwise positive
   double for_s = 0.0;        // [s] so long
-  double speed_share = 1.0;  // [-] [-0.5, 1] of speed_max, as long as it lasts
+  double speed_share = 1.0;  // [-] of speed_max, as long as it lasts; in [-0.5, 1] but in flight
   friend bool operator==(const Manoeuvre&, const Manoeuvre&) = default;
 };
 
@@ -106,6 +109,7 @@ class ManoeuvreChooser {
   void return_to_route(Route& way) const noexcept;
   void consider(const Manoeuvre& manoeuvre) noexcept;
   void consider_all() noexcept;
+  void consider_flight() noexcept;
   void stay_with_last() noexcept;
 
   VehicleResponse response_;

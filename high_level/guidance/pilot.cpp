@@ -15,7 +15,8 @@ using Vec = Eigen::Vector2d;
 constexpr double kPassing_m = 4.0;   // an obstacle whose zone is farther off a path is not passed
 constexpr double kOutside_m = 0.02;  // a start nearer than this to a zone is put outside it
 constexpr double kSlightly_m = 0.4;  // no deeper in a zone it is beside the path, not astray
-constexpr double kArrived_m = 0.4;   // so near to a place to wait at is there
+constexpr double kArrived_m = 0.8;   // so near to a place to wait at is there ...
+constexpr double kDrifted_m = 2.5;   // ... and so far from it no more
 
 [[nodiscard]] Vec centre_of(const Obstacle& shape) noexcept {
   if (shape.shape == ObstacleShape::kEllipse) {
@@ -36,17 +37,23 @@ Pilot::Pilot(const PilotOptions& options)
 void Pilot::start() noexcept {
   chooser_.forget();
   side_count_ = 0;
+  holding_ = false;
 }
 
 OwnMotion Pilot::when_it_takes_effect(Time now, const VehicleState& state) const noexcept {
-  OwnMotion own{{state.x_m, state.y_m}, state.heading_rad, state.surge_m_s};
+  OwnMotion own{{state.x_m, state.y_m},
+                state.heading_rad,
+                state.surge_m_s,
+                {state.current_x_m_s, state.current_y_m_s}};
   const double ahead_s = to_seconds(now - state.valid_at + options_.latency);
-  own.p_W += own.surge_m_s * ahead_s * Vec{std::sin(own.heading_rad), std::cos(own.heading_rad)};
+  const Vec ahead{std::sin(own.heading_rad), std::cos(own.heading_rad)};
+  own.p_W += ahead_s * (own.surge_m_s * ahead + own.current_m_s);
   return own;
 }
 
 void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const WorldPoint& goal,
-                PathRequest& request) noexcept {
+                bool stay, PathRequest& request) noexcept {
+  stay_ = stay;
   own_W_ = when_it_takes_effect(now, state).p_W;
   request.space = PathSpace::kWorld;
   request.side_gain_m = options_.side_gain_m;
@@ -62,7 +69,9 @@ void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const
     }
   }
   if (zone_clearance_m(request, end) < 0.0) {
-    if (const auto free = nearest_free(request, end, start)) {
+    // Where it waits it may turn: a zone leaves room for half the beam, not half the length.
+    const double room_m = options_.response.hull_half_length_m - options_.zones.hull_radius_m;
+    if (const auto free = nearest_free(request, end, start, std::max(kOutside_m, room_m))) {
       end = *free;
       goal_moved_ = true;
     }
@@ -93,7 +102,7 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
   if (path.reason == PathReason::kFound) {
     remember_sides(route_);
   }
-  const bool stay_at_end = goal_moved_ || path.reason != PathReason::kFound;
+  const bool stay_at_end = stay_ || goal_moved_ || path.reason != PathReason::kFound;
   const double share = path.narrow ? options_.narrow_speed_share : 1.0;
   const OwnMotion own = when_it_takes_effect(now, state);
   const auto& choice = chooser_.choose(now, own, route_, tracks, share, stay_at_end);
@@ -101,7 +110,6 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
   for (std::uint32_t i = 0; i < choice.way.count && plan.waypoint_count < kMaxWaypoints; ++i) {
     plan.waypoints[plan.waypoint_count++] = {choice.way.points[i].x(), choice.way.points[i].y()};
   }
-  const bool at_end = stay_at_end && (route_.end() - own.p_W).norm() < kArrived_m;
   plan.source = WaypointSource::kCurrent;
   plan.stay_at_end = stay_at_end;
   const bool aside = choice.manoeuvre.for_s > 0.0;
@@ -111,9 +119,8 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
   plan.steer_by = aside ? SteerBy::kCourse : SteerBy::kLine;
   plan.course_rad = wrap_to_pi(route_rad + (aside ? choice.manoeuvre.offset_rad : 0.0));
   plan.speed_share = choice.manoeuvre.speed_share;
-  if (!aside && at_end) {
-    plan.speed_share = 0.0;
-  }
+  const double left_m = (route_.end() - own.p_W).norm();
+  holding_ = stay_at_end && !aside && left_m < (holding_ ? kDrifted_m : kArrived_m);
   explain(path, choice, plan);
 }
 
@@ -162,15 +169,18 @@ void Pilot::explain(const SonarPath& path, const ManoeuvreChooser::Choice& choic
                                                                    : path.reason;
   plan.narrow = path.narrow;
   plan.changed = choice.changed || path.sides_changed;
-  plan.cause = choice.foresight.least_track;
-  plan.clearance_m = choice.foresight.least_clearance_m;
-  plan.clearance_after_s = choice.foresight.least_after_s;
+  // Of a manoeuvre the cause is what following the route would come to.
   const Manoeuvre& manoeuvre = choice.manoeuvre;
+  const Foresight& cause = manoeuvre.for_s > 0.0 ? choice.of_route : choice.foresight;
+  plan.cause = cause.least_track;
+  plan.clearance_m = cause.least_clearance_m;
+  plan.clearance_after_s = cause.least_after_s;
   if (manoeuvre.for_s > 0.0) {
-    plan.cause = choice.of_route.least_track;
     plan.rung = manoeuvre.speed_share <= 0.0           ? PlanRung::kStop
                 : std::abs(manoeuvre.offset_rad) > 0.0 ? PlanRung::kAside
                                                        : PlanRung::kSlow;
+  } else if (holding_) {
+    plan.rung = PlanRung::kHold;
   } else if (escaping_) {
     plan.rung = PlanRung::kEscape;
   } else if (path.reason != PathReason::kFound) {

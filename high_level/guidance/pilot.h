@@ -31,9 +31,10 @@ class Pilot {
   // A mission starts: nothing is kept to.
   void start() noexcept;
 
-  // Fills in space, start, goal, zones and sides of a request.
+  // Fills in space, start, goal, zones and sides of a request. stay: the goal is a place to wait
+  // at, not one to arrive at.
   void ask(Time now, const Tracks& tracks, const VehicleState& state, const WorldPoint& goal,
-           PathRequest& request) noexcept;
+           bool stay, PathRequest& request) noexcept;
 
   // The plan made of the answer to the last request; fills in what the pilot decides.
   void decide(Time now, const SonarPath& path, const Tracks& tracks, const VehicleState& state,
@@ -59,6 +60,8 @@ class Pilot {
   std::unique_ptr<PathRequest> asked_ = std::make_unique<PathRequest>();
   bool escaping_ = false;
   bool goal_moved_ = false;
+  bool stay_ = false;
+  bool holding_ = false;  // in the last plan
   Eigen::Vector2d own_W_ = Eigen::Vector2d::Zero();
   Route route_;
   std::array<KeptSide, kMaxObstacles> sides_{};

@@ -101,13 +101,13 @@ const PathRequest* Replanner::request(Time now, std::uint64_t frame, Time frame_
 }
 
 const PathRequest* Replanner::request(Time now, const Tracks& tracks, const VehicleState& state,
-                                      const WorldPoint& goal) noexcept {
+                                      const WorldPoint& goal, bool stay) noexcept {
   if (!pilot_ || !is_due(now, tracks.frame)) {
     return nullptr;
   }
   request_->id = next_id_++;
   request_->frame = tracks.frame;
-  pilot_->ask(now, tracks, state, goal, *request_);
+  pilot_->ask(now, tracks, state, goal, stay, *request_);
   ask({request_->id, tracks.frame, now, tracks.captured, pose_of(state), goal});
   return request_.get();
 }
@@ -145,7 +145,7 @@ const Plan* Replanner::answer(Time now, const SonarPath& path, const Tracks& tra
 }
 
 Replanner::Pending Replanner::take_answer(Time now) noexcept {
-  const Pending pending = *pending_;
+  Pending pending = *pending_;
   pending_.reset();
   heard_ = now;
   silence_said_ = false;

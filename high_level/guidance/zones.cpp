@@ -47,12 +47,16 @@ constexpr double kOutside_m = 0.05;  // beyond the edge, so that a search accept
 
 }  // namespace
 
+double sure_zone_m(const ZoneOptions& options, double speed_m_s) noexcept {
+  return options.hull_radius_m + options.margin_m + options.margin_per_speed_s * speed_m_s;
+}
+
 void make_zones(const ZoneOptions& options, const Tracks& tracks, Time now, const Vec& from_W,
                 double speed_m_s, PathRequest& request) noexcept {
   request.zone_count = 0;
   for (std::uint32_t i = 0; i < std::min<std::uint32_t>(tracks.count, kMaxObstacles); ++i) {
     const Track& track = tracks.tracks[i];
-    const Vec velocity{track.velocity_x_m_s, track.velocity_y_m_s};
+    const Vec velocity = track.sure_share() * Vec{track.velocity_x_m_s, track.velocity_y_m_s};
     if (velocity.norm() > options.slow_share * speed_m_s) {
       continue;
     }
@@ -68,8 +72,7 @@ void make_zones(const ZoneOptions& options, const Tracks& tracks, Time now, cons
         age_s * age_s * std::max(track.velocity_xx_m2_s2, track.velocity_yy_m2_s2);
     const double doubt_m =
         std::min(options.doubt_max_m, options.doubt_sigmas * std::sqrt(variance_m2));
-    const double clear_m =
-        options.hull_radius_m + options.margin_m + options.margin_per_speed_s * speed_m_s + doubt_m;
+    const double clear_m = sure_zone_m(options, speed_m_s) + doubt_m;
     const bool ellipse = zone.shape.shape == ObstacleShape::kEllipse;
     zone.shape.protection_first_m = clear_m + (ellipse ? zone.shape.semi_axis_first_m : 0.0);
     zone.shape.protection_second_m = clear_m + (ellipse ? zone.shape.semi_axis_second_m : 0.0);
@@ -110,13 +113,13 @@ std::optional<Vec> way_out(const PathRequest& request, const Vec& point_W) noexc
   return best;
 }
 
-std::optional<Vec> nearest_free(const PathRequest& request, const Vec& point_W,
-                                const Vec& from_W) noexcept {
+std::optional<Vec> nearest_free(const PathRequest& request, const Vec& point_W, const Vec& from_W,
+                                double outside_m) noexcept {
   for (double out_m = kStep_m; out_m <= kReach_m; out_m += kStep_m) {
     std::optional<Vec> best;
     for (int direction = 0; direction < kDirections; ++direction) {
       const Vec p = point_W + out_m * way(direction);
-      if (zone_clearance_m(request, p) >= kOutside_m &&
+      if (zone_clearance_m(request, p) >= outside_m &&
           (!best || (p - from_W).norm() < (*best - from_W).norm())) {
         best = p;
       }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "mid_level/base/frames.h"
 #include "mid_level/messages/path.h"
@@ -24,6 +23,9 @@ struct ZoneOptions {
   double slow_share = 0.0;  // [-]
 };
 
+// [m] from an obstacle that nothing is doubtful about to the edge of its zone.
+[[nodiscard]] double sure_zone_m(const ZoneOptions& options, double speed_m_s) noexcept;
+
 // Makes the request's zones, each placed where its obstacle will be when a vehicle at `from` with
 // that speed can be there. protection_first/second_m are the full zone, give_m what of it may be
 // given up.
@@ -39,10 +41,11 @@ void make_zones(const ZoneOptions& options, const Tracks& tracks, Time now,
 [[nodiscard]] std::optional<Eigen::Vector2d> way_out(const PathRequest& request,
                                                      const Eigen::Vector2d& point_W) noexcept;
 
-// The point outside every zone that lies nearest to a point inside one; of equally near ones the
-// one nearest to `from`. Nothing where there is none within 12 m.
+// The point that far outside every zone that lies nearest to a point inside one; of equally near
+// ones the one nearest to `from`. Nothing where there is none within 12 m.
 [[nodiscard]] std::optional<Eigen::Vector2d> nearest_free(const PathRequest& request,
                                                           const Eigen::Vector2d& point_W,
-                                                          const Eigen::Vector2d& from_W) noexcept;
+                                                          const Eigen::Vector2d& from_W,
+                                                          double outside_m = 0.05) noexcept;
 
 }  // namespace lodesman

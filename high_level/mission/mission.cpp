@@ -12,7 +12,7 @@ Mission::Mission(MissionOptions options) : options_{std::move(options)} {
   make_for(0);
 }
 
-void Mission::order(OperatorOrder order, Time now) noexcept {
+void Mission::order(OperatorOrder order, const WorldPoint& position, Time now) noexcept {
   if (order == OperatorOrder::kStart && !under_way()) {
     make_for(0);
     status_.state = MissionState::kUnderWay;
@@ -21,6 +21,13 @@ void Mission::order(OperatorOrder order, Time now) noexcept {
   } else if (order == OperatorOrder::kAbort && status_.state != MissionState::kAborted) {
     status_.state = MissionState::kAborted;
     status_.ended = now;
+  } else if (order == OperatorOrder::kHold && under_way()) {
+    status_.state = MissionState::kHolding;
+    status_.goal_x_m = position.xy_m.x();
+    status_.goal_y_m = position.xy_m.y();
+  } else if (order == OperatorOrder::kResume && holding()) {
+    status_.state = MissionState::kUnderWay;
+    make_for(status_.goal_index);
   }
 }
 
@@ -43,8 +50,8 @@ void Mission::advance(const WorldPoint& position, Time now) noexcept {
 
 void Mission::make_for(std::uint32_t index) noexcept {
   status_.goal_index = index;
-  status_.goal_x_m = goal().xy_m.x();
-  status_.goal_y_m = goal().xy_m.y();
+  status_.goal_x_m = options_.goals[index].xy_m.x();
+  status_.goal_y_m = options_.goals[index].xy_m.y();
 }
 
 }  // namespace lodesman

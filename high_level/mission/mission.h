@@ -22,14 +22,17 @@ class Mission {
  public:
   explicit Mission(MissionOptions options);
 
-  // start: from the first goal on, unless under way. abort: latched until the next start.
-  void order(OperatorOrder order, Time now) noexcept;
+  // start: from the first goal on, unless under way. abort: latched until the next start. hold:
+  // stays at `position`, the vehicle's own, if under way; resume: goes on from there.
+  void order(OperatorOrder order, const WorldPoint& position, Time now) noexcept;
   // Progress by the estimated position, which the mission itself takes for true.
   void advance(const WorldPoint& position, Time now) noexcept;
 
   [[nodiscard]] const MissionStatus& status() const noexcept { return status_; }
-  [[nodiscard]] WorldPoint goal() const noexcept { return options_.goals[status_.goal_index]; }
+  // What is made for now; while holding the place held.
+  [[nodiscard]] WorldPoint goal() const noexcept { return {{status_.goal_x_m, status_.goal_y_m}}; }
   [[nodiscard]] bool under_way() const noexcept { return status_.state == MissionState::kUnderWay; }
+  [[nodiscard]] bool holding() const noexcept { return status_.state == MissionState::kHolding; }
 
  private:
   void make_for(std::uint32_t index) noexcept;

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "high_level/tasks/controller.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "high_level/control/heading_control.h"
+#include "high_level/guidance/current.h"
 
 namespace lodesman {
 namespace {
 
-constexpr double kStay_m = 0.4;         // a place to wait at is held within this
+using Vec = Eigen::Vector2d;
+
+constexpr double kStay_m = 0.4;       // a place to wait at is held within this ...
+constexpr double kReturn_s = 5.0;     // ... and gone back to in about this time
+constexpr double kAstern_rad = 1.75;  // what lies abaft of this is gone back to astern
+constexpr double kStillWater_m_s = 0.02;
 constexpr double kAim_m = 0.2;          // nearer than this a point gives no direction
 constexpr double kSharpTurn_rad = 0.8;  // it slows down to turn by more
 constexpr double kSharpTurnShare = 0.3;
@@ -38,7 +45,9 @@ HelmCommand ControllerTask::decide(Time now) noexcept {
     helm.reason = HelmReason::kStaleMission;
     return helm;
   }
-  if (mission->value.state != MissionState::kUnderWay) {
+  const bool holds = mission->value.state == MissionState::kHolding && plan != nullptr &&
+                     plan->value.steer_by != SteerBy::kWaypoints;
+  if (mission->value.state != MissionState::kUnderWay && !holds) {
     helm.reason = HelmReason::kNotUnderWay;
     return helm;
   }
@@ -62,7 +71,7 @@ HelmCommand ControllerTask::decide(Time now) noexcept {
   if (plan->value.steer_by == SteerBy::kWaypoints) {
     steer_for_waypoint(plan->value, position, heading, helm);
   } else {
-    steer_by_pilot(plan->value, position, heading, helm);
+    steer_by_pilot(plan->value, state->value, attitude->value, helm);
   }
   return helm;
 }
@@ -80,30 +89,71 @@ void ControllerTask::steer_for_waypoint(const Plan& plan, const WorldPoint& posi
   helm.head_ref = head_ref(heading, reference, options_.heading_gain_per_deg);
 }
 
-void ControllerTask::steer_by_pilot(const Plan& plan, const WorldPoint& position, Heading heading,
-                                    HelmCommand& helm) noexcept {
+void ControllerTask::steer_by_pilot(const Plan& plan, const VehicleState& state,
+                                    const Attitude& attitude, HelmCommand& helm) noexcept {
+  const WorldPoint position{{state.x_m, state.y_m}};
+  const Vec current{state.current_x_m_s, state.current_y_m_s};
   const SteeringPoint ahead = point_to_steer_for({plan.waypoints.data(), plan.waypoint_count},
                                                  position, options_.look_ahead_m);
   helm.waypoint_index = ahead.waypoint;
   helm.waypoint_x_m = ahead.point.xy_m.x();
   helm.waypoint_y_m = ahead.point.xy_m.y();
-  Heading reference = Heading::clockwise_from_y_rad(plan.course_rad);
-  double share = plan.speed_share;
-  if (plan.steer_by == SteerBy::kLine) {
-    const Eigen::Vector2d way = ahead.point.xy_m - position.xy_m;
-    const double left_m = way.norm();
-    if (plan.stay_at_end && ahead.is_end && left_m < kStay_m) {
-      return;  // there: neutral
-    }
-    if (left_m > kAim_m) {
-      reference = Heading::of_displacement(way.x(), way.y());
-    }
+  const Vec course{std::sin(plan.course_rad), std::cos(plan.course_rad)};
+  if (plan.steer_by == SteerBy::kCourse) {
+    steer_along(course, plan.speed_share, current, attitude, helm);
+    return;
   }
-  if (share > 0.0 && std::abs(heading.turn_to_rad(reference)) > kSharpTurn_rad) {
-    share *= kSharpTurnShare;
+  const Vec way = ahead.point.xy_m - position.xy_m;
+  if (plan.stay_at_end && ahead.is_end) {
+    keep_place(way, plan.speed_share, current, attitude, helm);
+  } else {
+    steer_along(way.norm() > kAim_m ? way : course, plan.speed_share, current, attitude, helm);
   }
-  helm.surge_ref = static_cast<std::int32_t>(std::lround(share * options_.surge_ref));
-  helm.head_ref = head_ref(heading, reference, options_.heading_gain_per_deg);
+}
+
+void ControllerTask::steer_along(const Vec& way, double speed_share, const Vec& current,
+                                 const Attitude& attitude, HelmCommand& helm) noexcept {
+  const double speed_m_s = std::abs(speed_share) * options_.speed_m_s;
+  const Vec through = velocity_for_course(way.normalized(), speed_m_s, current);
+  const Vec& steered = speed_m_s > 0.0 ? through : way;
+  const Heading reference = Heading::of_displacement(steered.x(), steered.y());
+  const Heading heading = Heading::clockwise_from_y_rad(attitude.heading_rad);
+  const bool sharp = std::abs(heading.turn_to_rad(reference)) > kSharpTurn_rad;
+  set_helm(speed_share > 0.0 && sharp ? kSharpTurnShare * speed_share : speed_share, reference,
+           attitude, helm);
+}
+
+// Back to a place the faster the farther it is, on top of what the current asks for; bow or stern
+// first, whichever is nearer.
+void ControllerTask::keep_place(const Vec& way, double speed_share, const Vec& current,
+                                const Attitude& attitude, HelmCommand& helm) noexcept {
+  const double off_m = way.norm() - kStay_m;
+  Vec through = -current;
+  if (off_m > 0.0) {
+    through += std::min(off_m / kReturn_s, options_.speed_m_s) * way.normalized();
+  }
+  const double speed_m_s = through.norm();
+  if (speed_m_s < kStillWater_m_s) {
+    return;  // there, and nothing moves it: neutral
+  }
+  const Heading heading = Heading::clockwise_from_y_rad(attitude.heading_rad);
+  Heading reference = Heading::of_displacement(through.x(), through.y());
+  const bool astern = std::abs(heading.turn_to_rad(reference)) > kAstern_rad;
+  if (astern) {
+    reference = Heading::of_displacement(-through.x(), -through.y());
+  }
+  const double along = std::max(0.0, std::cos(heading.turn_to_rad(reference)));
+  const double share = along * std::min(speed_m_s / options_.speed_m_s, std::abs(speed_share));
+  set_helm(astern ? -share : share, reference, attitude, helm);
+}
+
+void ControllerTask::set_helm(double speed_share, Heading reference, const Attitude& attitude,
+                              HelmCommand& helm) noexcept {
+  const Heading swung = Heading::clockwise_from_y_rad(
+      attitude.heading_rad + options_.heading_lead_s * attitude.yaw_rate_rad_s);
+  const long surge_ref = std::lround(speed_share * options_.surge_ref);
+  helm.surge_ref = static_cast<std::int32_t>(std::clamp(surge_ref, -100L, 100L));
+  helm.head_ref = head_ref(swung, reference, options_.heading_gain_per_deg);
 }
 
 }  // namespace lodesman

@@ -15,6 +15,8 @@ struct ControllerOptions {
   double waypoint_radius_m = 0.0;     // [m] > 0
   double look_ahead_m = 0.0;          // [m] > 0 of steering by line of sight
   double look_ahead_s = 0.0;          // [s] what of it comes with a metre a second
+  double speed_m_s = 0.0;             // [m/s] > 0 at that SurgeRef, where the pilot steers
+  double heading_lead_s = 0.0;        // [s] it steers by the heading it will have by then
 };
 
 class ControllerTask final : public Task {
@@ -27,8 +29,14 @@ class ControllerTask final : public Task {
   [[nodiscard]] HelmCommand decide(Time now) noexcept;
   void steer_for_waypoint(const Plan& plan, const WorldPoint& position, Heading heading,
                           HelmCommand& helm) noexcept;
-  void steer_by_pilot(const Plan& plan, const WorldPoint& position, Heading heading,
+  void steer_by_pilot(const Plan& plan, const VehicleState& state, const Attitude& attitude,
                       HelmCommand& helm) noexcept;
+  void steer_along(const Eigen::Vector2d& way, double speed_share, const Eigen::Vector2d& current,
+                   const Attitude& attitude, HelmCommand& helm) noexcept;
+  void keep_place(const Eigen::Vector2d& way, double speed_share, const Eigen::Vector2d& current,
+                  const Attitude& attitude, HelmCommand& helm) noexcept;
+  void set_helm(double speed_share, Heading reference, const Attitude& attitude,
+                HelmCommand& helm) noexcept;
 
   ControllerOptions options_;
   WaypointTracker tracker_;

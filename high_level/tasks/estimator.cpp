@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "high_level/tasks/estimator.h"
 
+#include <cmath>
+
 namespace lodesman {
 
 EstimatorTask::EstimatorTask(Blackboard& board, Role role, const EstimatorOptions& options)
     : options_{options},
       local_frame_{options.origin},
       dead_reckoning_{options.dead_reckoning, options.start},
+      surge_{options.surge_lag},
+      drift_{options.current_time},
       attitude_{board.attitude},
       position_fix_{board.position_fix},
       world_truth_{board.world_truth},
@@ -21,6 +25,7 @@ void EstimatorTask::step(Time now) noexcept {
   const Heading heading = Heading::clockwise_from_y_rad(attitude->value.heading_rad);
   const auto* thrust = thrust_applied_.fresh(now, max_age::kThrustApplied);
   const int surge_ref = thrust != nullptr ? thrust->value.surge_ref : 0;
+  const double surge_m_s = surge_.follow(now, dead_reckoning_.speed_m_s(surge_ref));
   if (!update_position(now, heading, surge_ref)) {
     return;
   }
@@ -30,7 +35,15 @@ void EstimatorTask::step(Time now) noexcept {
   state.x_m = position.xy_m.x();
   state.y_m = position.xy_m.y();
   state.heading_rad = heading.rad();
-  state.surge_m_s = dead_reckoning_.speed_m_s(surge_ref);
+  state.surge_m_s = surge_m_s;
+  if (options_.source != PositionSource::kDeadReckoning &&
+      options_.current_time > Duration::zero()) {
+    const Eigen::Vector2d current_m_s = drift_.follow(
+        now, position,
+        surge_m_s * Eigen::Vector2d{std::sin(heading.rad()), std::cos(heading.rad())});
+    state.current_x_m_s = current_m_s.x();
+    state.current_y_m_s = current_m_s.y();
+  }
   states_.publish(state, now);
 }
 

@@ -6,6 +6,8 @@
 #include <cstdint>
 
 #include "high_level/estimate/dead_reckoning.h"
+#include "high_level/estimate/drift.h"
+#include "high_level/estimate/lag.h"
 #include "mid_level/base/geodesy.h"
 #include "mid_level/runtime/task.h"
 
@@ -14,6 +16,8 @@ namespace lodesman {
 struct EstimatorOptions {
   PositionSource source = PositionSource::kDeadReckoning;
   DeadReckoningOptions dead_reckoning;
+  Duration surge_lag{};         // [0, 100 s] of the speed behind SurgeRef; the paper knows none
+  Duration current_time{};      // [0, 1000 s] in which a current is learnt; 0: none is looked for
   double gps_correction = 0.0;  // [-] (0, 1] share of the way to each fix
   WorldPoint start;             // where dead reckoning starts
   GeoPoint origin;              // of the world frame
@@ -31,6 +35,8 @@ class EstimatorTask final : public Task {
   EstimatorOptions options_;
   LocalFrame local_frame_;
   DeadReckoning dead_reckoning_;
+  Lag surge_;
+  DriftEstimate drift_;
   Reader<Attitude> attitude_;
   Reader<PositionFix> position_fix_;
   Reader<WorldTruth> world_truth_;

@@ -25,6 +25,7 @@ namespace {
   manoeuvres.clearance_m = pilot.number("clearance_m", Range::above(0.0, 20.0));
   manoeuvres.core_m = pilot.number("core_m", Range::between(0.0, 10.0));
   manoeuvres.switch_gain_s = pilot.number("manoeuvre_gain_s", Range::between(0.0, 100.0));
+  manoeuvres.flight_speed_m_s = pilot.number("flight_speed_m_s", Range::between(0.0, 20.0));
   manoeuvres.doubt_sigmas = options.zones.doubt_sigmas;
   manoeuvres.doubt_max_m = options.zones.doubt_max_m;
   options.response.look_ahead_m = pilot.number("look_ahead_m", Range::above(0.0, 50.0));
@@ -35,7 +36,8 @@ namespace {
   options.response.surge_time_s = vehicle.number("surge_time_s", Range::above(0.0, 100.0));
   options.response.turn_rate_max_rad_s =
       vehicle.number("turn_rate_max_rad_s", Range::above(0.0, 5.0));
-  options.response.heading_gain_per_s = 1.0;
+  options.response.heading_gain_per_s =
+      vehicle.number("heading_gain_per_s", Range::above(0.0, 100.0));
   return options;
 }
 
@@ -51,6 +53,8 @@ HighLevelOptions read_high_level_options(const TomlTable& configuration) {
   replanner.previous_path_max_age =
       planner.duration("previous_path_max_age_s", Range::between(0.0, 1e6));
   const PilotOptions pilot = read_pilot_options(configuration);
+  options.controller.heading_lead_s =
+      configuration.table("pilot").number("heading_lead_s", Range::between(0.0, 10.0));
   options.controller.look_ahead_s =
       configuration.table("pilot").number("look_ahead_s", Range::between(0.0, 60.0));
   if (planner.choice("space", {"world", "sonar_view"}) == 0) {
@@ -68,6 +72,9 @@ HighLevelOptions read_high_level_options(const TomlTable& configuration) {
   reckoning.step = estimator.duration("dead_reckoning_step_s", Range::between(0.01, 1.0));
   reckoning.speed_per_surge_ref_m_s =
       estimator.number("speed_per_surge_ref_m_s", Range::above(0.0, 1.0));
+  options.estimator.surge_lag = estimator.duration("surge_lag_s", Range::between(0.0, 100.0));
+  options.estimator.current_time =
+      estimator.duration("current_time_s", Range::between(0.0, 1000.0));
   options.estimator.gps_correction = estimator.number("gps_correction", Range::above(0.0, 1.0));
   return options;
 }

@@ -47,27 +47,29 @@ void PlannerTask::step(Time now) noexcept {
   const auto* state = vehicle_state_.fresh(now, max_age::kVehicleState);
   if (state != nullptr) {
     poses_.add(state->value);
+    position_ = {{state->value.x_m, state->value.y_m}};
   }
   take_orders(now, state != nullptr);
   if (state != nullptr) {
-    mission_.advance({{state->value.x_m, state->value.y_m}}, now);
+    mission_.advance(position_, now);
   }
-  if (mission_.under_way()) {
+  // Places are held by the pilot alone; the paper knows nothing of it.
+  if (mission_.under_way() || (mission_.holding() && options_.replanner.pilot)) {
     replan(now);
   }
   statuses_.publish(mission_.status(), now);
 }
 
 void PlannerTask::take_orders(Time now, bool estimate_is_fresh) noexcept {
-  const bool was_under_way = mission_.under_way();
+  const Time started = mission_.status().started;
   if (options_.start_by_itself && estimate_is_fresh) {
     options_.start_by_itself = false;
-    mission_.order(OperatorOrder::kStart, now);
+    mission_.order(OperatorOrder::kStart, position_, now);
   }
   while (const auto* order = orders_.next()) {
-    mission_.order(order->value.order, now);
+    mission_.order(order->value.order, position_, now);
   }
-  if (mission_.under_way() && !was_under_way) {
+  if (mission_.status().started != started) {
     replanner_.start(now);
   }
 }
@@ -105,7 +107,8 @@ void PlannerTask::replan_in_world(Time now) noexcept {
   if (const auto* path = sonar_path_.latest(); path != nullptr) {
     publish(replanner_.answer(now, path->value, tracks->value, state->value), now);
   }
-  const auto* request = replanner_.request(now, tracks->value, state->value, mission_.goal());
+  const auto* request =
+      replanner_.request(now, tracks->value, state->value, mission_.goal(), mission_.holding());
   if (request != nullptr) {
     requests_.publish(*request, now);
   }

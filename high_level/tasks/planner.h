@@ -31,6 +31,7 @@ class PlannerTask final : public Task {
   Mission mission_;
   Replanner replanner_;
   PoseHistory poses_;
+  WorldPoint position_;  // the last known
   Reader<OperatorCommand> orders_;
   Reader<VehicleState> vehicle_state_;
   Reader<SonarObstacles> obstacles_;

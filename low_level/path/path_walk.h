@@ -15,6 +15,8 @@
 
 namespace lodesman {
 
+class WalkLeg;
+
 // A pixel from which a search ran out, or the goal.
 struct JumpPoint {
   PathPixel pixel;
@@ -46,14 +48,13 @@ class PathWalk {
 
  private:
   class Choices;
-  class Leg;
 
   void arrive(PathPixel pixel, std::int32_t left) noexcept;
   void stride(const TieBreak& rule) noexcept;
   void follow(const JumpPoint& guide, const TieBreak& rule, const Choices& choices) noexcept;
   void choose(const JumpPoint& guide, Choices& choices) noexcept;
   [[nodiscard]] const JumpPoint& find_guide() noexcept;
-  [[nodiscard]] int steps_before(bool straight, const Leg& leg) const noexcept;
+  [[nodiscard]] int steps_before(bool straight, const WalkLeg& leg) const noexcept;
   [[nodiscard]] bool leads_to(PathPixel from, const JumpPoint& point) const noexcept;
   [[nodiscard]] bool may_step(PathPixel from, int direction) const noexcept;
   [[nodiscard]] bool is_cheapest(PathPixel from, int direction, std::int32_t left) const noexcept;

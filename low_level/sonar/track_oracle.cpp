@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "mid_level/messages/obstacle_distance.h"
 
@@ -15,8 +16,7 @@ using Vec = Eigen::Vector2d;
 constexpr std::size_t kLatePings = 32;
 constexpr int kEdgeSamples = 24;       // of an ellipse
 constexpr double kWallSample_m = 0.5;  // of a wall
-// A velocity is a difference of two places: it is not known at the first sight of an obstacle.
-constexpr Duration kVelocityAfter = std::chrono::milliseconds{500};
+// Of a velocity while nothing better is known.
 constexpr double kUnknownVelocitySigma_m_s = 0.5;
 // Where it should be seen and is not for so long, it is gone.
 constexpr Duration kGoneAfter = std::chrono::seconds{2};
@@ -103,10 +103,15 @@ void for_each_wall_point(const Obstacle& wall, Visit visit) noexcept {
 TrackOracle::TrackOracle(std::span<const MovingObstacle> world, const TrackOracleOptions& options)
     : world_{world},
       options_{options},
-      random_{"track oracle", options.seed},
       now_(world.size()),
       known_(world.size()),
-      late_(kLatePings) {}
+      late_(kLatePings) {
+  nearest_.reserve(world.size());
+  random_.reserve(world.size());
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    random_.emplace_back("track oracle " + std::to_string(i + 1), options.seed);
+  }
+}
 
 void TrackOracle::see(const KnownView& view, Tracks& out) noexcept {
   for (std::size_t i = 0; i < world_.size(); ++i) {
@@ -114,8 +119,7 @@ void TrackOracle::see(const KnownView& view, Tracks& out) noexcept {
   }
   for (std::size_t i = 0; i < world_.size(); ++i) {
     Known& known = known_[i];
-    // Drawn whether it is needed or not, so that one obstacle's luck is not another's.
-    const bool dropped_out = random_.uniform() < options_.dropout;
+    const bool dropped_out = random_[i].uniform() < options_.dropout;
     const Seen seen = dropped_out ? Seen{} : look_at(i, view);
     if (seen.any) {
       learn(known, i, seen, view);
@@ -214,36 +218,50 @@ void TrackOracle::learn(Known& known, std::size_t index, const Seen& seen,
                     ? part_of(now_[index], known.from_m, known.to_m)
                     : now_[index];
   track.shape.id = track.id;
+  RandomStream& random = random_[index];
   const double sigma_m = options_.place_sigma_m;
-  track.shape = translated(track.shape, sigma_m * random_.gaussian(), sigma_m * random_.gaussian());
+  track.shape = translated(track.shape, sigma_m * random.gaussian(), sigma_m * random.gaussian());
   track.place_xx_m2 = track.place_yy_m2 = sigma_m * sigma_m;
+  const double velocity_sigma_m_s = velocity_sigma(view.captured - known.first_seen);
   const bool moves = view.scenario_time_s < truth.stops_at_s;
-  const bool velocity_known = view.captured - known.first_seen >= kVelocityAfter;
-  const double velocity_sigma_m_s =
-      velocity_known ? options_.velocity_sigma_m_s : kUnknownVelocitySigma_m_s;
   const auto measured = [&](double true_m_s) {
-    const double noise_m_s = options_.velocity_sigma_m_s * random_.gaussian();
-    return velocity_known ? (moves ? true_m_s : 0.0) + noise_m_s : 0.0;
+    const double noise_m_s = velocity_sigma_m_s * random.gaussian();
+    return velocity_sigma_m_s < kUnknownVelocitySigma_m_s ? (moves ? true_m_s : 0.0) + noise_m_s
+                                                          : 0.0;
   };
   track.velocity_x_m_s = measured(truth.velocity_x_m_s);
   track.velocity_y_m_s = measured(truth.velocity_y_m_s);
   track.velocity_xx_m2_s2 = track.velocity_yy_m2_s2 = velocity_sigma_m_s * velocity_sigma_m_s;
 }
 
-void TrackOracle::write(const KnownView& view, Tracks& out) const noexcept {
+// A velocity is a difference of two places: unknown at first sight, surer the longer it is watched.
+double TrackOracle::velocity_sigma(Duration watched) const noexcept {
+  if (watched <= Duration::zero()) {
+    return kUnknownVelocitySigma_m_s;
+  }
+  const double of_places_m_s = std::numbers::sqrt2 * options_.place_sigma_m / to_seconds(watched);
+  return std::min(kUnknownVelocitySigma_m_s,
+                  std::hypot(options_.velocity_sigma_m_s, of_places_m_s));
+}
+
+void TrackOracle::write(const KnownView& view, Tracks& out) noexcept {
+  nearest_.clear();
+  for (std::uint32_t i = 0; i < known_.size(); ++i) {
+    if (known_[i].known) {
+      const double distance_m = edge_distance_m(known_[i].track.shape, view.pose.p_WV);
+      nearest_.push_back({distance_m, i});
+    }
+  }
+  const std::size_t kept = std::min(nearest_.size(), kMaxObstacles);
+  std::sort(nearest_.begin(), nearest_.end());
+  std::sort(nearest_.begin(), nearest_.begin() + static_cast<std::ptrdiff_t>(kept),
+            [](const Near& a, const Near& b) { return a.index < b.index; });
   out.frame = view.frame;
   out.captured = view.captured;
-  out.count = 0;
-  out.dropped = 0;
-  for (const Known& known : known_) {
-    if (!known.known) {
-      continue;
-    }
-    if (out.count == kMaxObstacles) {
-      ++out.dropped;
-      continue;
-    }
-    out.tracks[out.count++] = known.track;
+  out.dropped = static_cast<std::uint32_t>(nearest_.size() - kept);
+  out.count = static_cast<std::uint32_t>(kept);
+  for (std::size_t i = 0; i < kept; ++i) {
+    out.tracks[i] = known_[nearest_[i].index].track;
   }
 }
 

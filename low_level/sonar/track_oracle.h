@@ -5,6 +5,7 @@
 // thread; it allocates when made and never after.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,7 +32,8 @@ class TrackOracle {
   // `world` must outlive this object.
   TrackOracle(std::span<const MovingObstacle> world, const TrackOracleOptions& options);
 
-  // One ping. `out` is what is known now, as old as the delay makes it, in the scene's order.
+  // One ping. `out` is what is known now, as old as the delay makes it, in the scene's order. Of
+  // more than it holds the farthest are left out.
   void see(const KnownView& view, Tracks& out) noexcept;
 
  private:
@@ -41,6 +43,11 @@ class TrackOracle {
     double from_m = 0.0;  // polylines: what is known of its length ...
     double to_m = 0.0;    // ... lies between these
     bool known = false;
+  };
+  struct Near {
+    double distance_m = 0.0;
+    std::uint32_t index = 0;
+    friend auto operator<=>(const Near&, const Near&) = default;
   };
   struct Seen {
     bool any = false;
@@ -54,13 +61,15 @@ class TrackOracle {
   [[nodiscard]] bool should_be_seen(const Known& known, std::size_t index,
                                     const KnownView& view) const noexcept;
   void learn(Known& known, std::size_t index, const Seen& seen, const KnownView& view) noexcept;
-  void write(const KnownView& view, Tracks& out) const noexcept;
+  [[nodiscard]] double velocity_sigma(Duration watched) const noexcept;  // [m/s]
+  void write(const KnownView& view, Tracks& out) noexcept;
 
   std::span<const MovingObstacle> world_;
   TrackOracleOptions options_;
-  RandomStream random_;
-  std::vector<Obstacle> now_;  // the scene as it is at the ping
+  std::vector<RandomStream> random_;  // one an obstacle: its luck is not another's
+  std::vector<Obstacle> now_;         // the scene as it is at the ping
   std::vector<Known> known_;
+  std::vector<Near> nearest_;
   std::vector<Tracks> late_;  // a ring of what was known at the last pings
   std::uint64_t pings_ = 0;
 };

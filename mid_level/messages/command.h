@@ -14,7 +14,7 @@
 
 namespace lodesman {
 
-enum class OperatorOrder : std::uint8_t { kNone, kStart, kAbort };
+enum class OperatorOrder : std::uint8_t { kNone, kStart, kAbort, kHold, kResume };
 
 // Written by the command socket (or by the program that starts a simulation); read by the
 // planner task, where the mission lives.
@@ -26,7 +26,7 @@ struct OperatorCommand {
   }
 };
 
-enum class MissionState : std::uint8_t { kIdle, kUnderWay, kReached, kAborted };
+enum class MissionState : std::uint8_t { kIdle, kUnderWay, kReached, kAborted, kHolding };
 [[nodiscard]] const char* to_string(MissionState state) noexcept;
 
 // Written by the planner task at every step; read by the controller, the world (its scenario's
@@ -36,7 +36,7 @@ struct MissionStatus {
   Time started{};                // [ns] of the last start; 0 before one
   Time ended{};                  // [ns] when it was reached or aborted
   std::uint32_t goal_index = 0;  // [-] of the goal made for: mission waypoints first, goal last
-  double goal_x_m = 0.0;         // [m] [world] that goal
+  double goal_x_m = 0.0;         // [m] [world] that goal; while holding the place held
   double goal_y_m = 0.0;         // [m] [world]
 
   static constexpr auto fields() noexcept {
@@ -75,6 +75,7 @@ enum class PlanRung : std::uint8_t {
   kEscape,     // out of a zone that the vehicle is in
   kNearGoal,   // the goal lies in a zone: to the nearest free point, and wait there
   kBestPoint,  // nothing leads to the goal: to the nearest point that can be reached, and wait
+  kHold,       // at the place to wait at, kept against wind and current
   kPrevious,   // no answer or no frame: along the previous waypoints
   kNothing,    // nothing to follow
 };
@@ -103,7 +104,7 @@ struct Plan {
   PlanRung rung = PlanRung::kOnRoute;
   SteerBy steer_by = SteerBy::kWaypoints;
   double course_rad = 0.0;           // [rad] [-pi, pi] where it is steered by
-  double speed_share = 1.0;          // [-] [-1, 1] of the mission's SurgeRef
+  double speed_share = 1.0;          // [-] of the mission's SurgeRef; more than 1: to get away
   bool stay_at_end = false;          // the last waypoint is a place to wait at
   bool narrow = false;               // zones had to give what they may
   bool changed = false;              // another side or another manoeuvre than in the plan before

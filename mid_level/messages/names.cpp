@@ -23,6 +23,7 @@ const char* to_string(MissionState state) noexcept {
     case MissionState::kUnderWay: return "under_way";
     case MissionState::kReached: return "reached";
     case MissionState::kAborted: return "aborted";
+    case MissionState::kHolding: return "holding";
   }
   return "unknown";
 }
@@ -45,6 +46,7 @@ const char* to_string(PlanRung rung) noexcept {
     case PlanRung::kEscape: return "escape";
     case PlanRung::kNearGoal: return "near_goal";
     case PlanRung::kBestPoint: return "best_point";
+    case PlanRung::kHold: return "hold";
     case PlanRung::kPrevious: return "previous";
     case PlanRung::kNothing: return "nothing";
   }

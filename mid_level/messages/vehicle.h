@@ -48,11 +48,19 @@ struct VehicleState {
   double y_m = 0.0;          // [m] [world] north
   double heading_rad = 0.0;  // [rad] [-pi, pi] clockwise from north
   double surge_m_s = 0.0;    // [m/s] speed ahead through the water, estimated
+  // Of the water, estimated; 0 where nothing is measured that could tell it.
+  double current_x_m_s = 0.0;  // [m/s] [world]
+  double current_y_m_s = 0.0;  // [m/s] [world]
 
   static constexpr auto fields() noexcept {
     using V = VehicleState;
-    return std::tuple{field("valid_at", &V::valid_at), field("x_m", &V::x_m), field("y_m", &V::y_m),
-                      field("heading_rad", &V::heading_rad), field("surge_m_s", &V::surge_m_s)};
+    return std::tuple{field("valid_at", &V::valid_at),
+                      field("x_m", &V::x_m),
+                      field("y_m", &V::y_m),
+                      field("heading_rad", &V::heading_rad),
+                      field("surge_m_s", &V::surge_m_s),
+                      field("current_x_m_s", &V::current_x_m_s),
+                      field("current_y_m_s", &V::current_y_m_s)};
   }
 };
 

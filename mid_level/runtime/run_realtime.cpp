@@ -62,7 +62,7 @@ struct RealtimeRunner::Worker {
   Worker(const TaskEntry& entry_in, Blackboard& board, Role role)
       : entry{entry_in}, health{board, entry_in.spec.id, role} {}
 
-  void run(std::stop_token stop, Time start) noexcept {
+  void run(const std::stop_token& stop, Time start) noexcept {
     name_thread(entry.spec);
     prefer_fifo(entry.spec);
     Time deadline = start + entry.spec.phase;
@@ -93,7 +93,7 @@ RealtimeRunner::RealtimeRunner(std::span<const TaskEntry> entries, Blackboard& b
   const Time start = SteadyClock{}.now();
   for (auto& worker : workers_) {
     worker->thread = std::jthread{
-        [w = worker.get(), start](std::stop_token stop) { w->run(std::move(stop), start); }};
+        [w = worker.get(), start](const std::stop_token& stop) { w->run(stop, start); }};
   }
 }
 

@@ -128,9 +128,7 @@ JudgedRun judged_run(const std::string& scenario_name, const std::vector<std::st
   JudgedRun run;
   run.result = record.result;
   run.last_rung = record.plans.empty() ? "without a plan" : record.plans.back().rung;
-  run.waiting = record.result.outcome == "time_limit" && !record.plans.empty() &&
-                run.last_rung != to_string(PlanRung::kOnRoute) &&
-                run.last_rung != to_string(PlanRung::kNothing);
+  run.waiting = record.result.outcome == "held";
   if (record.result.collided) {
     run.collision = judge(scenario, witness);
   }
@@ -154,7 +152,7 @@ void Outcomes::add(const JudgedRun& run) {
 
 std::string Outcomes::table() const {
   return format(
-             "%d runs: %d reached, %d waiting at the time limit, %d neither; collisions: %d that "
+             "%d runs: %d reached, %d held with a reason, %d neither; collisions: %d that "
              "could be avoided, %d that could not",
              runs, reached, waiting, adrift, avoidable, unavoidable) +
          notable;

@@ -22,8 +22,7 @@ struct Collision {
 struct JudgedRun {
   cli::RunResult result;
   std::optional<Collision> collision;
-  // It waits for something and says what: the last plan's rung is not that of a free way.
-  bool waiting = false;
+  bool waiting = false;  // held: it keeps a place, and the plan says why
   std::string last_rung;
 
   // The run, what became of it, and the command that sails it again. One line.
@@ -40,7 +39,7 @@ struct JudgedRun {
 struct Outcomes {
   int runs = 0;
   int reached = 0;
-  int waiting = 0;  // at the time limit, with a reason
+  int waiting = 0;  // held at the time limit, with a reason
   int adrift = 0;   // not reached, without one
   int avoidable = 0;
   int unavoidable = 0;  // collisions

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole boat in lock-step: what the paper reports, and that nothing but the scenario decides.
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "deploy/cli/report/run_files.h"
@@ -111,5 +113,39 @@ TEST_CASE("lock-step: a heading that falls silent stops the boat, and it goes on
     if (row.t_s > 5.5 && row.t_s < 9.0) {
       CHECK(stopped);
     }
+  }
+}
+
+TEST_CASE("lock-step: what cannot be reached is waited for at a place held against the current",
+          "[system]") {
+  for (const char* current : {"[0.0, -0.1]", "[0.1, 0.0]", "[0.0, 0.1]"}) {
+    // Something rests on the goal.
+    const auto text = TomlDocument::from_text(
+        "name = \"occupied\"\nseed = 1\ntime_limit_s = 240.0\n"
+        "[mission]\nstart_m = [0.0, 0.0]\nstart_heading_deg = 0.0\ngoal_m = [0.0, 12.0]\n"
+        "goal_radius_m = 0.5\n[vehicle]\nspeed_m_s = 0.22\nradius_m = 0.5\n"
+        "[[obstacle]]\nshape = \"circle\"\ncentre_m = [0.0, 12.0]\nradius_m = 0.5\n"
+        "protection_m = 2.0\n[environment]\ncurrent_m_s = " +
+            std::string{current} + "\n",
+        "occupied.toml");
+    const TomlDocument configuration = load_configuration("default", {});
+    const Scenario scenario = read_scenario(text, load_vessel_parameters());
+    const std::function<bool()> never = [] { return false; };
+    const std::function<void(const RunProgress&)> silent = [](const RunProgress&) {};
+    const RunRecord record = run_lockstep({configuration, scenario, never, silent, {}});
+    INFO(current);
+    CHECK(record.result.outcome == "held");
+    CHECK(record.plans.back().rung == "hold");
+    CHECK(record.plans.back().reason == PathReason::kGoalBlocked);
+    CHECK(record.result.min_hull_clearance_m.value() > 0.15);
+    const std::array<double, 2> place = record.plans.back().waypoints_m.back();
+    double farthest_m = 0.0;
+    for (const auto& row : record.trajectory) {
+      if (row.t_s > 120.0) {
+        farthest_m = std::max(farthest_m, std::hypot(row.x_m - place[0], row.y_m - place[1]));
+        CHECK(std::abs(row.surge_ref) <= 16);
+      }
+    }
+    CHECK(farthest_m < 2.5);
   }
 }

@@ -104,6 +104,43 @@ TEST_CASE("processes: a killed launcher takes both processes with it", "[system]
   CHECK(eventually([&] { return !any_segment_of(launcher.pid()); }));
 }
 
+TEST_CASE("processes: a hold keeps the boat where it is until it is told to go on", "[system]") {
+  const Scratch scratch{"hold"};
+  const auto scenario = scratch.file("near.toml", scenario_text(5.0));
+  const auto out = scratch.file("run");
+  constexpr const char* kPort = "17447";
+  const std::string port_setting = std::string{"command_socket.port="} + kPort;
+  ChildProcess launcher{"lodesman",
+                        {"sim", scenario.string(), "--out", out.string(), "--quiet", "--no-images",
+                         "--set", port_setting}};
+  const auto board =
+      SharedBlackboard::observe("lodesman-sim-" + std::to_string(launcher.pid()), seconds{20});
+  Reader<MissionStatus> mission{board->mission_status};
+  Reader<Plan> plan{board->plan};
+  const auto state_is = [&](MissionState state) {
+    return eventually([&] {
+      const auto* status = mission.latest();
+      return status != nullptr && status->value.state == state;
+    });
+  };
+  const auto order = [&](const char* command) {
+    ChildProcess teller{"lodesman", {command, "--port", kPort, "--quiet"}};
+    return eventually([&] { return teller.ended().has_value(); }) &&
+           *teller.ended() == "exit status 0";
+  };
+  REQUIRE(state_is(MissionState::kUnderWay));
+  REQUIRE(order("hold"));
+  REQUIRE(state_is(MissionState::kHolding));
+  CHECK(eventually([&] { return plan.latest()->value.rung == PlanRung::kHold; }));
+  REQUIRE(order("resume"));
+  REQUIRE(state_is(MissionState::kUnderWay));
+  REQUIRE(order("hold"));
+  REQUIRE(state_is(MissionState::kHolding));
+  REQUIRE(order("abort"));
+  REQUIRE(eventually([&] { return launcher.ended().has_value(); }));
+  CHECK(*launcher.ended() == "exit status 1");
+}
+
 TEST_CASE("processes: an interrupt ends a run cleanly, with a result", "[system]") {
   const Scratch scratch{"interrupt"};
   const auto scenario = scratch.file("far.toml", scenario_text(25.0));

@@ -12,6 +12,9 @@ namespace {
   if (plan.speed_share <= 0.0) {
     return plan.speed_share < 0.0 ? "astern" : "stopped";
   }
+  if (plan.speed_share > 1.0) {
+    return "at " + fixed(plan.speed_share, 1) + " times its speed, to get away";
+  }
   return plan.speed_share < 1.0 ? "at " + fixed(100.0 * plan.speed_share, 0) + " % speed"
                                 : "at full speed";
 }
@@ -39,6 +42,11 @@ namespace {
   if (plan.rung == "best_point") {
     return "no way to the goal: to the nearest point that can be reached, " + speed;
   }
+  if (plan.rung == "hold") {
+    return plan.reason == PathReason::kFound
+               ? std::string{"keeps its place"}
+               : std::string{"keeps its place and waits ("} + to_string(plan.reason) + ")";
+  }
   return plan.rung == "previous"
              ? std::string{"along the previous waypoints ("} + to_string(plan.reason) + ")"
              : std::string{"nothing to follow ("} + to_string(plan.reason) + ")";
@@ -49,8 +57,10 @@ namespace {
 std::string describe(const PlanRecord& plan) {
   std::string text = fixed(plan.t_s, 1) + " s: " + action_of(plan);
   if (plan.cause != 0 && plan.clearance_m) {
-    text += "; obstacle " + std::to_string(plan.cause) + ", " + fixed(*plan.clearance_m, 2) +
-            " m clear in " + fixed(plan.clearance_after_s, 0) + " s";
+    const bool manoeuvre = plan.rung == "aside" || plan.rung == "slow" || plan.rung == "stop";
+    text += (manoeuvre ? "; on the path obstacle " : "; obstacle ") + std::to_string(plan.cause) +
+            ", " + fixed(*plan.clearance_m, 2) + " m clear in " + fixed(plan.clearance_after_s, 0) +
+            " s";
   }
   return text + " (plan " + fixed(plan.t_s - plan.captured_s, 2) + " s old)";
 }

@@ -31,7 +31,8 @@ RunRecord run_lockstep(const LockstepRun& run) {
   const LockstepOptions lockstep{simulation_settings(run.configuration).lockstep_jitter,
                                  run.scenario.seed};
   LockstepRunner runner{tasks, clock, *board, lockstep};
-  RunWatcher watcher{*board, run.scenario, options.controller.waypoint_radius_m};
+  RunWatcher watcher{*board, with_planned_zones(run.scenario, options),
+                     options.controller.waypoint_radius_m};
   if (run.on_plan) {
     watcher.on_plan = [&](const Plan& plan, const SonarPath* path, const PlanRecord& record) {
       run.on_plan(*board, plan, path, record);

@@ -86,9 +86,9 @@ class TwoProcesses {
 RunRecord run_realtime(const RealtimeRun& run) {
   TwoProcesses processes{run};
   const SharedBlackboard board = observe(processes);
-  const double waypoint_radius_m =
-      high_level_options(run.configuration, run.scenario).controller.waypoint_radius_m;
-  RunWatcher watcher{*board, run.scenario, waypoint_radius_m};
+  const HighLevelOptions options = high_level_options(run.configuration, run.scenario);
+  RunWatcher watcher{*board, with_planned_zones(run.scenario, options),
+                     options.controller.waypoint_radius_m};
   if (run.on_plan) {
     watcher.on_plan = [&](const Plan& plan, const SonarPath* path, const PlanRecord& record) {
       run.on_plan(*board, plan, path, record);

@@ -2,6 +2,7 @@
 #include "deploy/cli/run/settings.h"
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 
 #include "hal_sim/campaign/encounter.h"
@@ -101,8 +102,27 @@ HighLevelOptions high_level_options(const TomlDocument& configuration, const Sce
         scenario.surge_ref * options.estimator.dead_reckoning.speed_per_surge_ref_m_s;
     pilot->response.look_ahead_m += options.controller.look_ahead_s * pilot->response.speed_max_m_s;
     options.controller.look_ahead_m = pilot->response.look_ahead_m;
+    options.controller.speed_m_s = pilot->response.speed_max_m_s;
   }
   return options;
+}
+
+Scenario with_planned_zones(Scenario scenario, const HighLevelOptions& options) {
+  if (!options.planner.replanner.pilot) {
+    return scenario;
+  }
+  const PilotOptions& pilot = *options.planner.replanner.pilot;
+  const double speed_m_s = pilot.response.speed_max_m_s;
+  for (MovingObstacle& obstacle : scenario.obstacles) {
+    const bool slow = std::hypot(obstacle.velocity_x_m_s, obstacle.velocity_y_m_s) <=
+                      pilot.zones.slow_share * speed_m_s;
+    const double zone_m = slow ? sure_zone_m(pilot.zones, speed_m_s) : 0.0;
+    Obstacle& shape = obstacle.at_start;
+    const bool ellipse = shape.shape == ObstacleShape::kEllipse;
+    shape.protection_first_m = zone_m + (ellipse ? shape.semi_axis_first_m : 0.0);
+    shape.protection_second_m = zone_m + (ellipse ? shape.semi_axis_second_m : 0.0);
+  }
+  return scenario;
 }
 
 CommandSocketSettings command_socket_settings(const TomlDocument& configuration) {

@@ -38,6 +38,10 @@ namespace lodesman::cli {
 [[nodiscard]] HighLevelOptions high_level_options(const TomlDocument& configuration,
                                                   const Scenario& scenario);
 
+// The scenario with the zones that are planned with: its own, or those that the pilot makes round
+// what it gives a zone to and is sure of.
+[[nodiscard]] Scenario with_planned_zones(Scenario scenario, const HighLevelOptions& options);
+
 // What the other sections say.
 struct CommandSocketSettings {
   std::string address;

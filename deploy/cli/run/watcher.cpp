@@ -262,6 +262,13 @@ RunProgress RunWatcher::progress() const {
   return progress;
 }
 
+// By order, or because there is nothing better to do than to wait.
+bool RunWatcher::is_holding() const {
+  return status_.state == MissionState::kHolding ||
+         (last_plan_ && (last_plan_->rung == to_string(PlanRung::kHold) ||
+                         last_plan_->rung == to_string(PlanRung::kStop)));
+}
+
 RunRecord RunWatcher::finish() {
   RunResult& result = record_.result;
   result.reached = status_.state == MissionState::kReached;
@@ -270,6 +277,7 @@ RunRecord RunWatcher::finish() {
   result.outcome = result.collided                           ? "collision"
                    : result.reached                          ? "goal"
                    : status_.state == MissionState::kAborted ? "aborted"
+                   : is_holding()                            ? "held"
                                                              : "time_limit";
   const WorldTruth truth = last_truth_.value_or(WorldTruth{});
   result.final_m = {truth.x_m, truth.y_m};

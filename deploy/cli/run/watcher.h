@@ -50,6 +50,7 @@ class RunWatcher {
   [[nodiscard]] PlanRecord describe(const Stamped<Plan>& plan, const SonarPath* path) const;
   [[nodiscard]] double scenario_time_of(Time stamp) const noexcept;
   void end_at_truth() noexcept;
+  [[nodiscard]] bool is_holding() const;
 
   const Scenario scenario_;
   RunRecord record_;

@@ -28,8 +28,8 @@ std::unique_ptr<ManoeuvreChooser> chooser(const ManoeuvreOptions& options = defa
   return std::make_unique<ManoeuvreChooser>(default_response(), options);
 }
 
-const Choice& choose(ManoeuvreChooser& chooser, const Tracks& tracks,
-                     const OwnMotion& own = northward_at(0.0)) {
+Choice choose(ManoeuvreChooser& chooser, const Tracks& tracks,
+              const OwnMotion& own = northward_at(0.0)) {
   return chooser.choose(at_s(0), own, route_north(), tracks, 1.0, false);
 }
 
@@ -81,7 +81,7 @@ Voyage sail(const Tracks& tracks, double duration_s) {
 TEST_CASE("manoeuvre: with nothing in the way the route is followed at full speed",
           "[high_level][guidance]") {
   const auto chooses = chooser();
-  const Choice& free = choose(*chooses, tracks_of({}));
+  const Choice free = choose(*chooses, tracks_of({}));
   CHECK(free.manoeuvre == kAlongTheRoute);
   CHECK(free.foresight.delay_s == Approx(0.0).margin(1e-12));
   CHECK(std::isinf(free.foresight.least_clearance_m));
@@ -89,7 +89,7 @@ TEST_CASE("manoeuvre: with nothing in the way the route is followed at full spee
   REQUIRE(free.way.count == 2);
   CHECK((free.way.points[0] - Vec{0, 0}).norm() < 1e-12);
   CHECK((free.way.end() - Vec{0, 20}).norm() < 1e-12);
-  const Choice& abeam = choose(*chooses, tracks_of({disc_track(5, 9, 10)}));
+  const Choice abeam = choose(*chooses, tracks_of({disc_track(5, 9, 10)}));
   CHECK(abeam.manoeuvre == kAlongTheRoute);
   CHECK(abeam.foresight.least_track == 5);
   // Far off it is a lower bound.
@@ -108,7 +108,7 @@ TEST_CASE("manoeuvre: a head-on mover is given way to starboard, and kept clear 
           "[high_level][guidance]") {
   const Tracks tracks = tracks_of({disc_track(3, 0, 16, 0.0, -0.5)});
   const auto chooses = chooser();
-  const Choice& choice = choose(*chooses, tracks);
+  const Choice choice = choose(*chooses, tracks);
   CHECK(choice.of_route.collides);
   CHECK(choice.of_route.least_track == 3);
   CHECK(choice.manoeuvre.for_s > 0.0);
@@ -140,11 +140,33 @@ TEST_CASE("manoeuvre: it stops before a way that is blocked all round", "[high_l
   // A dead end, too narrow to turn in.
   const Tracks tracks = tracks_of({wall_track(6, {{-2, -4}, {-2, 7}, {2, 7}, {2, -4}})});
   const auto chooses = chooser();
-  const Choice& choice = choose(*chooses, tracks, northward_at(2.0));
+  const Choice choice = choose(*chooses, tracks, northward_at(2.0));
   CHECK(choice.of_route.collides);
   CHECK(choice.manoeuvre.speed_share <= 0.0);
   const Voyage voyage = sail(tracks, 40.0);
   CHECK(voyage.least_m > 1.0);
+}
+
+TEST_CASE("manoeuvre: where nothing slower keeps clear it flees, and only there",
+          "[high_level][guidance]") {
+  // A slow boat, and something faster that comes up on its beam.
+  VehicleResponse slow = default_response();
+  slow.speed_max_m_s = 0.2;
+  ManoeuvreOptions options = default_manoeuvres();
+  const auto choice_with = [&](double flight_speed_m_s, const Tracks& tracks) {
+    options.flight_speed_m_s = flight_speed_m_s;
+    const auto chooses = std::make_unique<ManoeuvreChooser>(slow, options);
+    return std::make_unique<Choice>(
+        chooses->choose(at_s(0), northward_at(0.0, 0.2), route_north(), tracks, 1.0, false));
+  };
+  const Tracks fast = tracks_of({disc_track(1, 5.0, 0.5, -1.0, 0.0)});
+  CHECK(choice_with(0.0, fast)->foresight.collides);
+  const auto fled = choice_with(1.0, fast);
+  CHECK_FALSE(fled->foresight.collides);
+  CHECK(std::abs(fled->manoeuvre.speed_share) > 1.0);
+  const auto calm = choice_with(1.0, tracks_of({disc_track(1, 12.0, 3.0, -0.5, 0.0)}));
+  CHECK_FALSE(calm->foresight.collides);
+  CHECK(std::abs(calm->manoeuvre.speed_share) <= 1.0);
 }
 
 TEST_CASE("manoeuvre: it is kept to unless another gains more than is stated",
@@ -159,14 +181,14 @@ TEST_CASE("manoeuvre: it is kept to unless another gains more than is stated",
   const auto loyal = chooser(options);
   const Manoeuvre first = choose(*loyal, to_port).manoeuvre;
   REQUIRE(first.offset_rad > 0.0);
-  const Choice& second = choose(*loyal, to_starboard);
+  const Choice second = choose(*loyal, to_starboard);
   CHECK(second.manoeuvre == first);
   CHECK_FALSE(second.changed);
 
   options.switch_gain_s = 0.0;
   const auto fickle = chooser(options);
   (void)choose(*fickle, to_port);
-  const Choice& other = choose(*fickle, to_starboard);
+  const Choice other = choose(*fickle, to_starboard);
   CHECK(other.manoeuvre.offset_rad < 0.0);
   CHECK(other.changed);
 }

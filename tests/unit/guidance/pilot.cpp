@@ -38,8 +38,8 @@ struct Bridge {
   std::unique_ptr<SonarPath> path = std::make_unique<SonarPath>();
   std::unique_ptr<Plan> plan = std::make_unique<Plan>();
 
-  void ask(const Tracks& tracks, const VehicleState& state, const Vec& goal) {
-    pilot->ask(at_s(0), tracks, state, {goal}, *request);
+  void ask(const Tracks& tracks, const VehicleState& state, const Vec& goal, bool stay = false) {
+    pilot->ask(at_s(0), tracks, state, {goal}, stay, *request);
   }
   void decide(const Tracks& tracks, const VehicleState& state, PathReason reason,
               std::initializer_list<PathPoint> points) {
@@ -84,7 +84,7 @@ TEST_CASE("pilot: it plans from where the vehicle will be when the plan takes ef
   VehicleState state = state_at(0, 0, 1.0);
   state.valid_at = at_s(5.0);
   state.heading_rad = to_rad(90.0);
-  bridge.pilot->ask(at_s(5.1), tracks_of({}), state, {{20.0, 0.0}}, *bridge.request);
+  bridge.pilot->ask(at_s(5.1), tracks_of({}), state, {{20.0, 0.0}}, false, *bridge.request);
   CHECK(bridge.request->start_x_m == Approx(0.25));
   CHECK(bridge.request->start_y_m == Approx(0.0).margin(1e-9));
 }
@@ -154,7 +154,7 @@ TEST_CASE("pilot: a goal in a zone is gone near to, and waited at", "[high_level
   bridge.ask(tracks, state_at(0, 0), {0, 20});
   const PathPoint near{bridge.request->goal_x_m, bridge.request->goal_y_m};
   CHECK(zone_clearance_m(*bridge.request, {near.x_m, near.y_m}) > 0.0);
-  CHECK(near.y_m == Approx(20.0 - 3.5).margin(0.3));
+  CHECK(near.y_m == Approx(20.0 - 3.5 - 0.42).margin(0.3));
   bridge.decide(tracks, state_at(0, 0), PathReason::kFound, {{0, 0}, near});
   CHECK(bridge.plan->reason == PathReason::kGoalBlocked);
   CHECK(bridge.plan->rung == PlanRung::kNearGoal);
@@ -166,7 +166,32 @@ TEST_CASE("pilot: a goal in a zone is gone near to, and waited at", "[high_level
   bridge.ask(tracks, there, {0, 20});
   bridge.decide(tracks, there, PathReason::kFound, {{there.x_m, there.y_m}, near});
   CHECK(bridge.plan->stay_at_end);
-  CHECK(bridge.plan->speed_share == Approx(0.0).margin(1e-12));
+  CHECK(bridge.plan->rung == PlanRung::kHold);
+  CHECK(bridge.plan->reason == PathReason::kGoalBlocked);
+  // A little drift changes nothing, much of it does.
+  const VehicleState adrift = state_at(near.x_m, near.y_m - 1.5);
+  bridge.decide(tracks, adrift, PathReason::kFound, {{adrift.x_m, adrift.y_m}, near});
+  CHECK(bridge.plan->rung == PlanRung::kHold);
+  const VehicleState away = state_at(near.x_m, near.y_m - 4.0);
+  bridge.ask(tracks, away, {0, 20});
+  bridge.decide(tracks, away, PathReason::kFound, {{away.x_m, away.y_m}, near});
+  CHECK(bridge.plan->rung == PlanRung::kNearGoal);
+}
+
+TEST_CASE("pilot: a place to stay at is held, and left for what comes", "[high_level][guidance]") {
+  Bridge bridge;
+  const VehicleState here = state_at(3, 4);
+  bridge.ask(tracks_of({}), here, {3, 4}, true);
+  bridge.decide(tracks_of({}), here, PathReason::kFound, {{3, 4}});
+  CHECK(bridge.plan->rung == PlanRung::kHold);
+  CHECK(bridge.plan->reason == PathReason::kFound);
+  CHECK(bridge.plan->stay_at_end);
+  CHECK(bridge.plan->steer_by == SteerBy::kLine);
+  const Tracks mover = tracks_of({disc_track(3, 3, 12, 0.0, -0.5)});
+  bridge.ask(mover, here, {3, 4}, true);
+  bridge.decide(mover, here, PathReason::kFound, {{3, 4}});
+  CHECK(bridge.plan->rung != PlanRung::kHold);
+  CHECK(bridge.plan->cause == 3);
 }
 
 TEST_CASE("pilot: without a path it goes to the best point and waits", "[high_level][guidance]") {
@@ -183,7 +208,7 @@ TEST_CASE("pilot: without a path it goes to the best point and waits", "[high_le
   // With no point at all it stays where it is.
   bridge.decide(none, state_at(0, 0), PathReason::kLimit, {});
   CHECK(bridge.plan->stay_at_end);
-  CHECK(bridge.plan->speed_share == Approx(0.0).margin(1e-12));
+  CHECK(bridge.plan->rung == PlanRung::kHold);
 }
 
 TEST_CASE("pilot: narrow water is gone through slowly", "[high_level][guidance]") {

@@ -47,13 +47,23 @@ TEST_CASE("plan_story: course, speed and the obstacle it is about are named", "[
   plan.clearance_m = 0.308;
   plan.clearance_after_s = 8.1;
   CHECK(cli::describe(plan) ==
-        "12.3 s: steers 48 deg, at 50 % speed; obstacle 2, 0.31 m clear in 8 s (plan 0.15 s old)");
+        "12.3 s: steers 48 deg, at 50 % speed; on the path obstacle 2, 0.31 m clear in 8 s "
+        "(plan 0.15 s old)");
   plan.rung = "stop";
   plan.speed_share = 0.0;
   plan.clearance_m.reset();
   CHECK(cli::describe(plan) == "12.3 s: stopped until it is clear (plan 0.15 s old)");
   plan.speed_share = -0.4;
   CHECK(cli::describe(plan) == "12.3 s: astern until it is clear (plan 0.15 s old)");
+  plan.rung = "slow";
+  plan.speed_share = 4.55;
+  CHECK(cli::describe(plan) ==
+        "12.3 s: along the path, at 4.5 times its speed, to get away (plan 0.15 s old)");
+  plan.rung = "hold";
+  CHECK(cli::describe(plan) == "12.3 s: keeps its place (plan 0.15 s old)");
+  plan.reason = PathReason::kGoalBlocked;
+  CHECK(cli::describe(plan) ==
+        "12.3 s: keeps its place and waits (goal_blocked) (plan 0.15 s old)");
 }
 
 TEST_CASE("plan_story: only a change is news", "[report]") {

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "high_level/estimate/drift.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lodesman {
+
+Eigen::Vector2d DriftEstimate::follow(Time now, const WorldPoint& position,
+                                      const Eigen::Vector2d& through_water_m_s) noexcept {
+  constexpr double kGap_s = 1.0;  // after a longer silence it begins anew from where it is
+  const double since_s = to_seconds(now - last_);
+  if (running_ && since_s > 0.0 && since_s < kGap_s) {
+    const Eigen::Vector2d over_ground_m_s = (position.xy_m - last_position_.xy_m) / since_s;
+    const double share = -std::expm1(-since_s / to_seconds(time_));
+    drift_m_s_ += share * (over_ground_m_s - through_water_m_s - drift_m_s_);
+  }
+  running_ = true;
+  last_ = now;
+  last_position_ = position;
+  const double sure = 1.0 - kDoubt_m_s * kDoubt_m_s / std::max(drift_m_s_.squaredNorm(), 1e-12);
+  return std::max(0.0, sure) * drift_m_s_;
+}
+
+}  // namespace lodesman

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "high_level/estimate/lag.h"
+
+#include <cmath>
+
+namespace lodesman {
+
+double Lag::follow(Time now, double wanted) noexcept {
+  if (time_ <= Duration::zero()) {
+    return wanted;
+  }
+  if (running_) {
+    value_ += (wanted - value_) * -std::expm1(-to_seconds(now - last_) / to_seconds(time_));
+  }
+  running_ = true;
+  last_ = now;
+  return value_;
+}
+
+}  // namespace lodesman

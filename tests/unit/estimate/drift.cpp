@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "high_level/estimate/drift.h"
+
+#include <cmath>
+
+#include "tests/support/catch.h"
+
+using namespace lodesman;
+using std::chrono::milliseconds;
+using Vec = Eigen::Vector2d;
+
+namespace {
+
+// Sails north through the water in a current to the east for so long; what is known of it then.
+Vec known_after(DriftEstimate& drift, double from_s, double to_s, double current_m_s) {
+  Vec known = Vec::Zero();
+  for (int tick = 0; tick * 0.05 < to_s - from_s; ++tick) {
+    const double t_s = from_s + tick * 0.05;
+    known = drift.follow(Time{from_seconds(t_s)}, {{current_m_s * t_s, 0.22 * t_s}}, {0.0, 0.22});
+  }
+  return known;
+}
+
+}  // namespace
+
+TEST_CASE("drift: it is learnt in its time", "[high_level][estimate]") {
+  DriftEstimate drift{milliseconds{10000}};
+  const Vec known = known_after(drift, 1.0, 11.05, 0.1);
+  const double learnt_m_s = 0.1 * (1.0 - std::exp(-1.0));
+  CHECK(known.x() == Approx(learnt_m_s - 0.03 * 0.03 / learnt_m_s).epsilon(0.01));
+  CHECK(known.y() == Approx(0.0).margin(1e-9));
+  CHECK(known_after(drift, 11.05, 80.0, 0.1).x() == Approx(0.1 - 0.009).epsilon(0.01));
+}
+
+TEST_CASE("drift: what may be an error of the speed through the water is no current",
+          "[high_level][estimate]") {
+  DriftEstimate drift{milliseconds{10000}};
+  CHECK(known_after(drift, 1.0, 80.0, 0.028).norm() == Approx(0.0).margin(1e-12));
+}
+
+TEST_CASE("drift: a jump of the position after a silence is no current", "[high_level][estimate]") {
+  DriftEstimate drift{milliseconds{10000}};
+  (void)known_after(drift, 1.0, 5.0, 0.0);
+  const Vec known = drift.follow(Time{from_seconds(9.0)}, {{50.0, 50.0}}, {0.0, 0.22});
+  CHECK(known.norm() == Approx(0.0).margin(1e-9));
+}
