@@ -98,8 +98,8 @@ void answer_all(const PlanOptions& options, const std::vector<Query>& queries, A
 }
 
 [[nodiscard]] int plan(const PlanOptions& options) {
-  if (options.geometry != 4) {
-    throw StartupError("--geometry: 8 is not built yet; use 4");
+  if (options.geometry == 8 && (options.frames.empty() || options.costs != "paper")) {
+    throw StartupError("--geometry: 8 goes with --frames, and has costs of its own");
   }
   if (options.frames.empty() == options.map.empty()) {
     throw StartupError("plan: give either --frames, or --map and --scen");
@@ -108,7 +108,7 @@ void answer_all(const PlanOptions& options, const std::vector<Query>& queries, A
   const MapCosts costs = options.costs == "paper" ? MapCosts::kPaper : MapCosts::kSqrt2;
   if (!options.frames.empty()) {
     const std::vector<FrameQuery> frames = read_frames(options.frames);
-    FramePlanner planner{costs};
+    FramePlanner planner{costs, options.geometry == 8 ? Geometry::k8 : Geometry::k4};
     AnyAnglePlanner any_angle;
     answer_all(options, frames, [&](const FrameQuery& frame, std::size_t /*number*/) {
       PlanAnswer answer = planner.answer(frame, options.repeat);
@@ -142,7 +142,8 @@ void add_options(CLI::App& command, PlanOptions& options) {
   scen->needs(map)->excludes(frames);
   command
       .add_option("--geometry", options.geometry,
-                  "4: 8 neighbours at 45 degrees, the paper's; 8 is not built yet")
+                  "4: 8 neighbours at 45 degrees, the paper's; 8: also knight's steps of 2.2, "
+                  "16 directions")
       ->check(CLI::IsMember({4, 8}))
       ->capture_default_str();
   command

@@ -2,29 +2,18 @@
 #include "low_level/path/grid.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
+
+#include "low_level/path/ellipse_raster.h"
+#include "low_level/path/line_ends.h"
 
 namespace lodesman {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// The next whole number up, within [low, high]. What is not a number gives the widest span: a
-// first pixel falls to `low`, a last one to `high`.
-int first_from(double value, int low, int high) noexcept {
-  if (!(value > low)) {
-    return low;
-  }
-  return value >= high ? high : static_cast<int>(std::ceil(value));
-}
-int last_from(double value, int low, int high) noexcept {
-  if (!(value < high)) {
-    return high;
-  }
-  return value <= low ? low : static_cast<int>(std::ceil(value));
-}
 
 struct Range {
   double low = kInfinity;
@@ -47,15 +36,6 @@ struct Range {
     }
   }
 };
-
-// The rows that a shape between two heights can touch, and one more to each side for rounding.
-struct Rows {
-  int first;
-  int end;
-};
-Rows rows_between(double top, double bottom) noexcept {
-  return {first_from(top - 1.0, 0, kViewRows), last_from(bottom + 2.0, 0, kViewRows)};
-}
 
 // Where a capsule crosses a row: its two discs, and the rectangle between them.
 Range capsule_range(const CapsulePx& capsule, int row) noexcept {
@@ -82,77 +62,97 @@ Range capsule_range(const CapsulePx& capsule, int row) noexcept {
   return range;
 }
 
-}  // namespace
-
-PassableGrid::PassableGrid()
-    : fan_words_((kViewRows + 2) * kWordsPerRow + 1, 0), words_(fan_words_.size(), 0) {
-  for (int row = 0; row < kViewRows; ++row) {
-    Span& span = fan_[static_cast<std::size_t>(row)];
-    span = {kApexColumn, kApexColumn};  // no row of the fan is without its middle
-    while (in_fan(span.first - 1, row)) {
-      --span.first;
+// The places of the fan in each line of the view. Lines that cross the fan cross it once.
+template <class Holds>
+std::vector<LineSpan> outlines_of(int lines, int length, Holds holds) {
+  std::vector<LineSpan> outlines(static_cast<std::size_t>(lines));
+  for (int line = 0; line < lines; ++line) {
+    LineSpan& span = outlines[static_cast<std::size_t>(line)];
+    span = {length, -1};
+    for (int place = 0; place < length; ++place) {
+      if (holds(line, place)) {
+        span = {std::min(span.first, place), place};
+      }
     }
-    while (in_fan(span.last + 1, row)) {
-      ++span.last;
-    }
-    for (int column = span.first; column <= span.last; ++column) {
-      const auto bit = static_cast<std::size_t>(column + 1);
-      fan_words_[row_start(row) + bit / 64] |= std::uint64_t{1} << (bit % 64);
+    if (span.last < 0) {
+      span = {};
     }
   }
-  clear();
+  return outlines;
+}
+
+// Turns a square of bits about its diagonal: bit c of word r becomes bit r of word c. Halves are
+// exchanged, then quarters within the halves, down to single bits.
+void transpose(std::array<std::uint64_t, 64>& square) noexcept {
+  std::uint64_t mask = 0x00000000FFFFFFFFU;
+  for (unsigned size = 32; size != 0; size /= 2, mask ^= mask << size) {
+    for (unsigned i = 0; i < 64; i = (i + size + 1) & ~size) {
+      const std::uint64_t moved = (square[i] >> size ^ square[i + size]) & mask;
+      square[i] ^= moved << size;
+      square[i + size] ^= moved;
+    }
+  }
+}
+
+}  // namespace
+
+PassableGrid::PassableGrid(const FanShape& fan)
+    : fan_{fan},
+      rows_{fan.columns, outlines_of(fan.rows, fan.columns,
+                                     [&](int row, int column) { return fan.holds(column, row); })},
+      columns_{fan.rows, outlines_of(fan.columns, fan.rows,
+                                     [&](int column, int row) { return fan.holds(column, row); })} {
 }
 
 void PassableGrid::clear() noexcept {
-  std::copy(fan_words_.begin(), fan_words_.end(), words_.begin());
+  rows_.clear();
+  columns_.clear();
 }
 
-void PassableGrid::block_all() noexcept { std::fill(words_.begin(), words_.end(), 0); }
+void PassableGrid::block_all() noexcept {
+  rows_.block_all();
+  columns_.block_all();
+}
 
 void PassableGrid::block(PathPixel pixel) noexcept {
-  if (in_fan(pixel.column, pixel.row)) {
-    block_span(pixel.row, {pixel.column, pixel.column});
+  if (!fan_.holds(pixel.column, pixel.row)) {
+    return;
   }
+  const LineSpan row{pixel.row, pixel.row};
+  const LineSpan column{pixel.column, pixel.column};
+  rows_.announce(row, column);
+  rows_.block(pixel.row, column);
+  columns_.announce(column, row);
+  columns_.block(pixel.column, row);
 }
 
 void PassableGrid::block(const EllipsePx& ellipse) noexcept {
-  // With dx, dy from the centre: (dx cos + dy sin)^2 / a^2 + (dy cos - dx sin)^2 / b^2 <= 1, in
-  // dx a quadratic square * dx^2 + 2 * slope * dy * dx + ... whose discriminant is
-  // square - (dy / (a b))^2.
-  const double cos_a = ellipse.cos_theta / ellipse.a;
-  const double sin_a = ellipse.sin_theta / ellipse.a;
-  const double cos_b = ellipse.cos_theta / ellipse.b;
-  const double sin_b = ellipse.sin_theta / ellipse.b;
-  const double square = cos_a * cos_a + sin_b * sin_b;
-  const double slope = cos_a * sin_a - sin_b * cos_b;
-  const double height = ellipse.a * ellipse.b * std::sqrt(square);
-  const Rows rows = rows_between(ellipse.centre.row - height, ellipse.centre.row + height);
-  for (int row = rows.first; row < rows.end; ++row) {
-    const double dy = row - ellipse.centre.row;
-    const double scaled = dy / (ellipse.a * ellipse.b);
-    const double half = std::sqrt(std::max(square - scaled * scaled, 0.0)) / square;
-    const double middle = ellipse.centre.column - slope * dy / square;
-    block_row(ellipse, row, middle - half, middle + half);
-  }
+  draw_in_rows(ellipse, rows_);
+  draw_in_columns(ellipse, columns_);
 }
 
 void PassableGrid::block(const CapsulePx& capsule) noexcept {
-  const double top = std::min(capsule.from.row, capsule.to.row) - capsule.radius;
-  const double bottom = std::max(capsule.from.row, capsule.to.row) + capsule.radius;
-  const Rows rows = rows_between(top, bottom);
-  for (int row = rows.first; row < rows.end; ++row) {
-    const Range range = capsule_range(capsule, row);
-    block_row(capsule, row, range.low, range.high);
-  }
+  block(WallPx{{capsule.from, capsule.to}, 2, capsule.radius, false});
 }
 
 void PassableGrid::block(const WallPx& wall) noexcept {
+  Range rows;
+  Range columns;
+  for (std::uint32_t i = 0; i < wall.vertex_count; ++i) {
+    const PointPx& vertex = wall.vertices[i];
+    rows.include(vertex.row - wall.radius, vertex.row + wall.radius);
+    columns.include(vertex.column - wall.radius, vertex.column + wall.radius);
+  }
+  const LineSpan row_bounds = lines_between(rows.low, rows.high, fan_.rows);
+  const LineSpan column_bounds = lines_between(columns.low, columns.high, fan_.columns);
+  rows_.announce(row_bounds, column_bounds);
   for (std::uint32_t i = 0; i < wall.edge_count(); ++i) {
-    block(wall.edge(i));
+    block_capsule_rows(wall.edge(i));
   }
   if (wall.closed) {
-    block_interior(wall);
+    block_interior_rows(wall);
   }
+  copy_to_columns(row_bounds, column_bounds);
 }
 
 void PassableGrid::block(const ZonePx& zone) noexcept {
@@ -165,45 +165,35 @@ void PassableGrid::block(const ZonePx& zone) noexcept {
 
 std::uint32_t PassableGrid::free_pixels() const noexcept {
   int count = 0;
-  for (const std::uint64_t word : words_) {
-    count += std::popcount(word);
+  for (int row = 0; row < fan_.rows; ++row) {
+    const std::uint64_t* const words = rows_.words(row);
+    for (int i = 0; i < rows_.words_per_line(); ++i) {
+      count += std::popcount(words[i]);
+    }
   }
   return static_cast<std::uint32_t>(count);
 }
 
-// Blocks the shape's pixels in a row, given about where they begin and end.
-template <class Shape>
-void PassableGrid::block_row(const Shape& shape, int row, double low, double high) noexcept {
-  const Span fan = fan_[static_cast<std::size_t>(row)];
-  int first = first_from(low - 1.0, fan.first, fan.last + 1);
-  int last = last_from(high + 1.0, fan.first - 1, fan.last);
-  while (first <= last && !shape.contains(first, row)) {
-    ++first;
+void PassableGrid::block_capsule_rows(const CapsulePx& capsule) noexcept {
+  const double top = std::min(capsule.from.row, capsule.to.row) - capsule.radius;
+  const double bottom = std::max(capsule.from.row, capsule.to.row) + capsule.radius;
+  const LineSpan rows = lines_between(top, bottom, fan_.rows);
+  for (int row = rows.first; row <= rows.last; ++row) {
+    const Range range = capsule_range(capsule, row);
+    block_row_span(row, exact_span(rows_.outline(row), range.low, range.high,
+                                   [&](int column) { return capsule.contains(column, row); }));
   }
-  if (first > last) {
-    return;
-  }
-  while (!shape.contains(last, row)) {  // ends at `first`, which is inside
-    --last;
-  }
-  while (first > fan.first && shape.contains(first - 1, row)) {
-    --first;
-  }
-  while (last < fan.last && shape.contains(last + 1, row)) {
-    ++last;
-  }
-  block_span(row, {first, last});
 }
 
-void PassableGrid::block_interior(const WallPx& wall) noexcept {
+void PassableGrid::block_interior_rows(const WallPx& wall) noexcept {
   double top = kInfinity;
   double bottom = -kInfinity;
   for (std::uint32_t i = 0; i < wall.vertex_count; ++i) {
     top = std::min(top, wall.vertices[i].row);
     bottom = std::max(bottom, wall.vertices[i].row);
   }
-  const Rows rows = rows_between(top, bottom);
-  for (int row = rows.first; row < rows.end; ++row) {
+  const LineSpan rows = lines_between(top, bottom, fan_.rows);
+  for (int row = rows.first; row <= rows.last; ++row) {
     std::array<Crossing, kMaxVertices> crossings;
     std::size_t count = 0;
     for (std::uint32_t i = 0; i < wall.edge_count(); ++i) {
@@ -213,36 +203,39 @@ void PassableGrid::block_interior(const WallPx& wall) noexcept {
     }
     std::sort(crossings.begin(), crossings.begin() + static_cast<std::ptrdiff_t>(count),
               [](const Crossing& l, const Crossing& r) { return l.column < r.column; });
-    const Span fan = fan_[static_cast<std::size_t>(row)];
+    const LineSpan fan = rows_.outline(row);
     int winding = 0;
     for (std::size_t i = 0; i + 1 < count; ++i) {
       winding += crossings[i].winding;
       if (winding != 0) {  // from this crossing on, up to the pixel before the next
-        block_span(row, {first_from(crossings[i].column, fan.first, fan.last + 1),
-                         first_from(crossings[i + 1].column, fan.first, fan.last + 1) - 1});
+        block_row_span(row, {first_from(crossings[i].column, fan.first, fan.last + 1),
+                             first_from(crossings[i + 1].column, fan.first, fan.last + 1) - 1});
       }
     }
   }
 }
 
-void PassableGrid::block_span(int row, Span span) noexcept {
-  if (span.first > span.last) {
-    return;
+void PassableGrid::block_row_span(int row, LineSpan span) noexcept {
+  if (span.first <= span.last) {
+    rows_.block(row, span);
   }
-  const auto first = static_cast<std::size_t>(span.first + 1);
-  const auto last = static_cast<std::size_t>(span.last + 1);
-  const std::uint64_t from_first = ~std::uint64_t{0} << (first % 64);
-  const std::uint64_t to_last = ~std::uint64_t{0} >> (63 - last % 64);
-  std::uint64_t* words = words_.data() + row_start(row);
-  if (first / 64 == last / 64) {
-    words[first / 64] &= ~(from_first & to_last);
-    return;
+}
+
+// Takes what is blocked in some rows and columns over into the columns.
+void PassableGrid::copy_to_columns(LineSpan rows, LineSpan columns) noexcept {
+  columns_.announce(columns, rows);
+  for (int top = rows.first & ~63; top <= rows.last; top += 64) {
+    for (int left = columns.first & ~63; left <= columns.last; left += 64) {
+      std::array<std::uint64_t, 64> square{};
+      for (int i = 0; i < std::min(64, fan_.rows - top); ++i) {
+        square[static_cast<std::size_t>(i)] = rows_.words(top + i)[left / 64];
+      }
+      transpose(square);
+      for (int i = 0; i < std::min(64, fan_.columns - left); ++i) {
+        columns_.keep(left + i, top / 64, square[static_cast<std::size_t>(i)]);
+      }
+    }
   }
-  words[first / 64] &= ~from_first;
-  for (std::size_t i = first / 64 + 1; i < last / 64; ++i) {
-    words[i] = 0;
-  }
-  words[last / 64] &= ~to_last;
 }
 
 }  // namespace lodesman

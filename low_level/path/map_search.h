@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A* over a map of any size, with the moves of AStar and a choice of costs; for the bench, where
+// A* over a map of any size, with the moves of moves.h and a choice of costs; for the bench, where
 // maps are not the sonar's fan. Owned by one thread; it allocates, and so is not for the vehicle.
 #pragma once
 

@@ -29,7 +29,7 @@ void PathFinder::find_path(const SonarObstacles& obstacles, const PathRequest& r
     const SonarView view{range_m};
     draw(obstacles, view);
     const VehiclePoint goal{{request.goal_x_m, request.goal_y_m}};
-    result = a_star_.search(grid_, kApex, nearest_pixel(view, goal).value_or(kOutOfView));
+    result = search_.search(grid_, kApex, nearest_pixel(view, goal).value_or(kOutOfView));
   } else {
     grid_.block_all();
   }

@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include "low_level/path/a_star.h"
 #include "low_level/path/grid.h"
+#include "low_level/path/path_search.h"
 #include "mid_level/messages/path.h"
 #include "mid_level/messages/sonar.h"
 #include "mid_level/messages/sonar_view.h"
@@ -20,7 +20,7 @@ namespace lodesman {
 
 class PathFinder {
  public:
-  explicit PathFinder(SearchLimits limits = {}) : a_star_{limits} {}
+  explicit PathFinder(SearchLimits limits = {}) : search_{Geometry::k4, limits} {}
 
   // Fills all of `out` but plan_time_ns, which is the caller's to measure, and the pixels after
   // pixel_count. The path starts at the apex. An obstacle that cannot be drawn (zone.h) blocks
@@ -36,7 +36,7 @@ class PathFinder {
   void draw(const SonarObstacles& obstacles, const SonarView& view) noexcept;
 
   PassableGrid grid_;
-  AStar a_star_;
+  PathSearch search_;
 };
 
 }  // namespace lodesman

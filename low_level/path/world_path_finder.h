@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "low_level/path/tangent_path.h"
 #include "mid_level/messages/path.h"
@@ -14,6 +15,11 @@ namespace lodesman {
 
 class WorldPathFinder {
  public:
+  // Of one search, and a plan is three searches at most. Tens are usual; where 64 walls of 32
+  // vertices take more than this, a search would last longer than a plan may, and ends as kLimit:
+  // no line, and who asked keeps what it has.
+  static constexpr std::uint32_t kMaxTried = 8192;
+
   // Fills all that concerns a path in the world, and the reason. kNoPath: the line leads to the
   // point nearest to the goal that was found.
   void find_path(const PathRequest& request, SonarPath& out) noexcept;
@@ -24,7 +30,7 @@ class WorldPathFinder {
   [[nodiscard]] TangentResult search(const PathRequest& request, bool keep_sides) noexcept;
   void take(const PathRequest& request, const TangentResult& result, SonarPath& out) noexcept;
 
-  TangentPath tangents_;
+  TangentPath tangents_{TangentLimits{.max_tried = kMaxTried}};
   std::array<ZonePx, kMaxObstacles> zones_{};
   std::array<BendSides, kMaxObstacles> sides_{};
   std::size_t zone_count_ = 0;

@@ -16,12 +16,25 @@ inline constexpr int kApexColumn = 433;
 inline constexpr int kApexRow = 499;
 inline constexpr int kFanRadiusPx = 500;
 
-// In the fan: dx^2 + dy^2 <= 500^2 and dx^2 <= 3 dy^2 (60 degrees to each side).
+// The size of a view and of the fan in it. Only tests and benches have any but the sonar's own.
+struct FanShape {
+  int columns = kViewColumns;     // [px]
+  int rows = kViewRows;           // [px]
+  int apex_column = kApexColumn;  // [px]
+  int apex_row = kApexRow;        // [px]
+  int radius_px = kFanRadiusPx;   // [px]
+
+  // In the fan: dx^2 + dy^2 <= radius^2 and dx^2 <= 3 dy^2 (60 degrees to each side).
+  [[nodiscard]] constexpr bool holds(int column, int row) const noexcept {
+    const int dx = column - apex_column;
+    const int dy = apex_row - row;
+    return column >= 0 && column < columns && row >= 0 && row < rows &&
+           dx * dx + dy * dy <= radius_px * radius_px && dx * dx <= 3 * dy * dy;
+  }
+};
+
 [[nodiscard]] constexpr bool in_fan(int column, int row) noexcept {
-  const int dx = column - kApexColumn;
-  const int dy = kApexRow - row;
-  return column >= 0 && column < kViewColumns && row >= 0 && row < kViewRows &&
-         dx * dx + dy * dy <= kFanRadiusPx * kFanRadiusPx && dx * dx <= 3 * dy * dy;
+  return FanShape{}.holds(column, row);
 }
 
 // The view at a range setting; the vehicle's origin is the apex pixel's centre.

@@ -13,9 +13,9 @@
 
 #include "deploy/cli/tools/frame_file.h"
 #include "deploy/cli/tools/moving_ai.h"
-#include "low_level/path/a_star.h"
 #include "low_level/path/grid.h"
 #include "low_level/path/map_search.h"
+#include "low_level/path/path_search.h"
 
 namespace lodesman::cli {
 
@@ -37,23 +37,24 @@ struct PlanAnswer {
   [[nodiscard]] nlohmann::ordered_json to_json() const;
 };
 
-// Queries in the sonar view. Under the paper's costs it is the vehicle's own grid and search that
-// answer; under others MapSearch does, on that same grid.
+// Queries in the sonar view. Under the paper's costs, and in 8-geometry, it is the vehicle's own
+// grid and search that answer; under others MapSearch does, on that same grid.
 class FramePlanner {
  public:
-  explicit FramePlanner(MapCosts costs);
+  // Geometry::k8 has costs of its own, and goes with MapCosts::kPaper.
+  explicit FramePlanner(MapCosts costs, Geometry geometry = Geometry::k4);
 
   // With the median of `repeat` times.
   [[nodiscard]] PlanAnswer answer(const FrameQuery& query, int repeat);
 
  private:
   void draw(const FrameQuery& query) noexcept;
-  void search_as_on_vehicle(const FrameQuery& query, PlanAnswer& answer);
   void search_map(const FrameQuery& query, PlanAnswer& answer);
 
   MapCosts costs_;
+  Geometry geometry_;
   PassableGrid grid_;
-  AStar a_star_;
+  PathSearch search_;
   PassableMap map_;
   MapSearch map_search_;
 };

@@ -23,6 +23,7 @@ void require_exact(PassableGrid& grid, const Shape& shape) {
       const bool expected = in_fan(column, row) && !shape.contains(column, row);
       free += expected ? 1U : 0U;
       wrong += grid.passable(column, row) == expected ? 0 : 1;
+      wrong += grid.columns().is_free(column, row) == expected ? 0 : 1;
     }
   }
   REQUIRE(wrong == 0);
@@ -145,6 +146,18 @@ TEST_CASE("grid: cleared it is the fan again, blocked it is empty", "[low_level]
   REQUIRE(grid.free_pixels() == 0);
   grid.clear();
   REQUIRE(grid.free_pixels() == fan);
+  // More shapes than are remembered one by one.
+  for (int i = 0; i < 300; ++i) {
+    grid.block(EllipsePx{{100.0 + 2.5 * i, 50.0 + 1.5 * i}, 20.0, 10.0});
+  }
+  REQUIRE(grid.free_pixels() < fan);
+  grid.clear();
+  for (int row = 0; row < kViewRows; ++row) {
+    for (int column = 0; column < kViewColumns; ++column) {
+      REQUIRE(grid.passable(column, row) == in_fan(column, row));
+      REQUIRE(grid.columns().is_free(column, row) == in_fan(column, row));
+    }
+  }
   grid.block(pixel(-5, 700));
   grid.block(pixel(0, 499));
   REQUIRE(grid.free_pixels() == fan);

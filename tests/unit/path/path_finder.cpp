@@ -96,7 +96,7 @@ TEST_CASE("path_finder: each reason reaches the message", "[low_level][path]") {
   REQUIRE(rig.find(0.0, 20.0) == PathReason::kNoPath);
 
   rig.obstacles->count = 0;
-  rig.finder = PathFinder{SearchLimits{100}};
+  rig.finder = PathFinder{SearchLimits{0}};
   REQUIRE(rig.find(3.0, 20.0) == PathReason::kLimit);
 }
 

@@ -3,9 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "low_level/path/a_star.h"
+#include "low_level/path/path_search.h"
 #include "tests/support/catch.h"
 #include "tests/support/data_dir.h"
+#include "tests/unit/path/bucket_a_star.h"
 #include "tests/unit/path/reference_search.h"
 
 namespace lodesman::testing {
@@ -19,14 +20,15 @@ void draw(const nlohmann::json& frame, PassableGrid& grid) {
   }
 }
 
-TEST_CASE("path: every planner frame has its free pixels and its cheapest cost",
+TEST_CASE("path: every planner frame has its free pixels, its cheapest cost and the rule's path",
           "[low_level][path]") {
   const auto file = data_path("planner_frames/frames.jsonl");
   if (!file) {
     return;
   }
   PassableGrid grid;
-  AStar a_star;
+  PathSearch search;
+  BucketAStar reference;
   std::ifstream lines{*file};
   std::string line;
   int frames = 0;
@@ -38,7 +40,7 @@ TEST_CASE("path: every planner frame has its free pixels and its cheapest cost",
     draw(frame, grid);
     REQUIRE(grid.free_pixels() == frame.at("free_px").get<std::uint32_t>());
 
-    const SearchResult result = a_star.search(grid, start, goal);
+    const SearchResult result = search.search(grid, start, goal);
     if (frame.at("cost_10_14").is_null()) {
       REQUIRE(result.reason == PathReason::kNoPath);
       REQUIRE(result.cost_10_14 == 0);
@@ -47,6 +49,7 @@ TEST_CASE("path: every planner frame has its free pixels and its cheapest cost",
       REQUIRE(result.reason == PathReason::kFound);
       REQUIRE(result.cost_10_14 == frame.at("cost_10_14").get<int>());
       require_walkable(grid, result.path, start, goal, result.cost_10_14);
+      REQUIRE(same(result.path, reference.search(grid, start, goal).path));
     }
     ++frames;
   }

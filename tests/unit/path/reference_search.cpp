@@ -2,9 +2,10 @@
 #include "tests/unit/path/reference_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <queue>
+#include <tuple>
 #include <utility>
 
 #include "tests/support/catch.h"
@@ -21,63 +22,107 @@ int step_cost(PathPixel from, PathPixel to) {
   return from.column != to.column && from.row != to.row ? 14 : 10;
 }
 
-std::vector<PathPixel> neighbours(PathPixel of) {
-  std::vector<PathPixel> all;
+std::array<PathPixel, 8> neighbours(PathPixel of) {
+  std::array<PathPixel, 8> all;
+  std::size_t count = 0;
   for (int row = of.row - 1; row <= of.row + 1; ++row) {
     for (int column = of.column - 1; column <= of.column + 1; ++column) {
       if (row != of.row || column != of.column) {
-        all.push_back(pixel(column, row));
+        all[count++] = pixel(column, row);
       }
     }
   }
   return all;
 }
 
-// Of a step's end, the smaller the better: its distance from the line between start and goal, and
-// a little more where that is to port, and a very little for the way to the goal that is left.
-double dislike_of(PathPixel end, PathPixel start, PathPixel goal) {
+// The pixels through which the straight line of a knight's step passes, its ends among them.
+bool knight_may_step(const PassableGrid& grid, PathPixel from, int columns, int rows) {
+  for (int i = 0; i < 8; ++i) {
+    const double share = (i + 0.5) / 8.0;
+    if (!grid.passable(static_cast<int>(std::lround(from.column + share * columns)),
+                       static_cast<int>(std::lround(from.row + share * rows)))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Pixels in order of their cost to the goal, a list a cost. `for_steps(at, take)` calls take(next,
+// cost) for each step.
+template <class ForSteps>
+std::vector<int> costs_to(const PassableGrid& grid, const Window& window, PathPixel goal,
+                          ForSteps for_steps) {
+  std::vector<int> cost(static_cast<std::size_t>(window.columns * window.rows), kUnreached);
+  std::vector<std::vector<PathPixel>> open(1);
+  if (grid.passable(goal.column, goal.row)) {
+    cost[window.index(goal)] = 0;
+    open[0].push_back(goal);
+  }
+  for (std::size_t so_far = 0; so_far < open.size(); ++so_far) {
+    for (std::size_t i = 0; i < open[so_far].size(); ++i) {
+      const PathPixel at = open[so_far][i];
+      if (cost[window.index(at)] != static_cast<int>(so_far)) {
+        continue;  // reached more cheaply since
+      }
+      for_steps(at, [&](PathPixel next, int step) {
+        if (!window.holds(next)) {
+          return;
+        }
+        int& known = cost[window.index(next)];
+        const int offered = static_cast<int>(so_far) + step;
+        if (known == kUnreached || offered < known) {
+          known = offered;
+          open.resize(std::max(open.size(), static_cast<std::size_t>(offered) + 1));
+          open[static_cast<std::size_t>(offered)].push_back(next);
+        }
+      });
+    }
+  }
+  return cost;
+}
+
+// Of a step's end, the smaller the better: its distance from the line between start and goal, then
+// whether that is to port, then the way to the goal that is left.
+std::tuple<double, bool, double> dislike_of(PathPixel end, PathPixel start, PathPixel goal) {
   const double across = goal.column - start.column;
   const double ahead = start.row - goal.row;
   const double length = std::hypot(across, ahead);
   const double off =
       length > 0.0 ? ((end.column - start.column) * ahead - (start.row - end.row) * across) / length
                    : 0.0;
-  const double left = std::hypot(goal.column - end.column, goal.row - end.row);
-  return std::abs(off) + (off < -1e-9 ? 1e-6 : 0.0) + 1e-12 * left;
+  return {std::abs(off), off < 0.0, std::hypot(goal.column - end.column, goal.row - end.row)};
 }
 
 }  // namespace
 
 std::vector<int> dijkstra(const PassableGrid& grid, const Window& window, PathPixel goal) {
-  std::vector<int> cost(static_cast<std::size_t>(window.columns * window.rows), kUnreached);
-  using Entry = std::pair<int, std::pair<int, int>>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  std::vector<bool> done(cost.size(), false);
-  if (grid.passable(goal.column, goal.row)) {
-    cost[window.index(goal)] = 0;
-    open.push({0, {goal.column, goal.row}});
-  }
-  while (!open.empty()) {
-    const auto [so_far, where] = open.top();
-    open.pop();
-    const PathPixel at = pixel(where.first, where.second);
-    if (done[window.index(at)]) {
-      continue;
-    }
-    done[window.index(at)] = true;
+  return costs_to(grid, window, goal, [&](PathPixel at, auto take) {
     for (const PathPixel next : neighbours(at)) {
-      if (!window.holds(next) || !may_step(grid, at, next)) {
-        continue;
-      }
-      int& known = cost[window.index(next)];
-      const int offered = so_far + step_cost(at, next);
-      if (known == kUnreached || offered < known) {
-        known = offered;
-        open.push({offered, {next.column, next.row}});
+      if (may_step(grid, at, next)) {
+        take(next, step_cost(at, next));
       }
     }
-  }
-  return cost;
+  });
+}
+
+std::vector<int> dijkstra_16(const PassableGrid& grid, const Window& window, PathPixel goal) {
+  return costs_to(grid, window, goal, [&](PathPixel at, auto take) {
+    for (const PathPixel next : neighbours(at)) {
+      if (may_step(grid, at, next)) {
+        take(next, step_cost(at, next));
+      }
+    }
+    for (const int one : {-1, 1}) {
+      for (const int two : {-2, 2}) {
+        if (knight_may_step(grid, at, one, two)) {
+          take(pixel(at.column + one, at.row + two), 22);
+        }
+        if (knight_may_step(grid, at, two, one)) {
+          take(pixel(at.column + two, at.row + one), 22);
+        }
+      }
+    }
+  });
 }
 
 std::vector<PathPixel> path_by_rule(const PassableGrid& grid, const Window& window,
@@ -90,7 +135,7 @@ std::vector<PathPixel> path_by_rule(const PassableGrid& grid, const Window& wind
   while (!same(path.back(), goal)) {
     const PathPixel at = path.back();
     const int cost = cost_to_goal[window.index(at)];
-    std::vector<std::pair<double, PathPixel>> choices;
+    std::vector<std::pair<std::tuple<double, bool, double>, PathPixel>> choices;
     for (const PathPixel next : neighbours(at)) {
       if (window.holds(next) && may_step(grid, at, next) &&
           cost_to_goal[window.index(next)] + step_cost(at, next) == cost) {

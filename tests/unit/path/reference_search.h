@@ -34,7 +34,11 @@ inline constexpr int kUnreached = -1;
 [[nodiscard]] std::vector<int> dijkstra(const PassableGrid& grid, const Window& window,
                                         PathPixel goal);
 
-// The path that the rule in a_star.h chooses, given the costs to the goal; empty where none.
+// The same with knight's steps (Geometry::k8), under its costs.
+[[nodiscard]] std::vector<int> dijkstra_16(const PassableGrid& grid, const Window& window,
+                                           PathPixel goal);
+
+// The path that the rule in tie_break.h chooses, given the costs to the goal; empty where none.
 [[nodiscard]] std::vector<PathPixel> path_by_rule(const PassableGrid& grid, const Window& window,
                                                   const std::vector<int>& cost_to_goal,
                                                   PathPixel start, PathPixel goal);
@@ -43,7 +47,6 @@ inline constexpr int kUnreached = -1;
 // neighbouring step, cutting no corner, at just this cost.
 void require_walkable(const PassableGrid& grid, std::span<const PathPixel> path, PathPixel start,
                       PathPixel goal, std::int32_t cost);
-
 
 [[nodiscard]] PathPixel pixel(int column, int row);
 [[nodiscard]] bool same(PathPixel l, PathPixel r);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "low_level/path/a_star.h"
+#include "low_level/path/path_search.h"
 #include "tests/support/catch.h"
 #include "tests/unit/path/reference_search.h"
 
@@ -14,7 +14,7 @@ constexpr PathPixel kApex{kApexColumn, kApexRow};
 
 TEST_CASE("ties: an obstacle dead ahead is always passed to starboard", "[low_level][path]") {
   PassableGrid grid;
-  AStar a_star;
+  PathSearch search;
   for (const double radius : {1.0, 8.0, 25.0, 58.3, 65.0}) {
     for (const double row : {400.0, 300.5, 250.0}) {
       CAPTURE(radius, row);
@@ -27,7 +27,7 @@ TEST_CASE("ties: an obstacle dead ahead is always passed to starboard", "[low_le
         for (const EllipsePx& disc : discs) {
           grid.block(disc);
         }
-        const SearchResult result = a_star.search(grid, kApex, pixel(433, 60));
+        const SearchResult result = search.search(grid, kApex, pixel(433, 60));
         REQUIRE(result.reason == PathReason::kFound);
         const auto [left, right] =
             std::minmax_element(result.path.begin(), result.path.end(),
@@ -47,7 +47,7 @@ TEST_CASE("ties: an obstacle dead ahead is always passed to starboard", "[low_le
 TEST_CASE("ties: in open water the path never leaves the straight line to the goal by a pixel",
           "[low_level][path]") {
   PassableGrid grid;
-  AStar a_star;
+  PathSearch search;
   for (int row = 5; row < 490; row += 53) {
     for (int column = 20; column < kViewColumns; column += 59) {
       const PathPixel goal = pixel(column, row);
@@ -59,7 +59,7 @@ TEST_CASE("ties: in open water the path never leaves the straight line to the go
         continue;
       }
       CAPTURE(column, row);
-      const SearchResult result = a_star.search(grid, kApex, goal);
+      const SearchResult result = search.search(grid, kApex, goal);
       REQUIRE(result.reason == PathReason::kFound);
       require_walkable(grid, result.path, kApex, goal, result.cost_10_14);
       for (const PathPixel p : result.path) {
@@ -72,7 +72,7 @@ TEST_CASE("ties: in open water the path never leaves the straight line to the go
 
 TEST_CASE("ties: the rule holds on a whole view with obstacles", "[low_level][path]") {
   PassableGrid grid;
-  AStar a_star;
+  PathSearch search;
   grid.block(EllipsePx::with_angle({440.0, 330.0}, 80.0, 25.0, 0.4));
   grid.block(EllipsePx::with_angle({400.0, 220.0}, 50.0, 35.0, -0.7));
   grid.block(EllipsePx::with_angle({520.0, 240.0}, 40.0, 20.0, 1.2));
@@ -80,7 +80,7 @@ TEST_CASE("ties: the rule holds on a whole view with obstacles", "[low_level][pa
     CAPTURE(goal.column, goal.row);
     const Window view;
     const auto expected = path_by_rule(grid, view, dijkstra(grid, view, goal), kApex, goal);
-    REQUIRE(same(a_star.search(grid, kApex, goal).path, expected));
+    REQUIRE(same(search.search(grid, kApex, goal).path, expected));
   }
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
+#include <random>
 
 #include "mid_level/base/frames.h"
 #include "mid_level/messages/obstacle_distance.h"
@@ -197,6 +199,32 @@ TEST_CASE("world_path_finder: where it is ringed in, the line leads as near as t
   CHECK(std::abs(end.x() - 100.0) < 4.2);
   CHECK(std::abs(end.y() - 200.0) < 4.2);
   CHECK(path->length_m == Approx(length_of_line(*path)));
+}
+
+TEST_CASE("world_path_finder: among too many spiked walls it ends at its limit, without a line",
+          "[low_level][path]") {
+  std::mt19937 random{3};
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>{low, high}(random);
+  };
+  const auto request = world_request({0, 0}, {-2, 27});
+  while (request->zone_count < kMaxObstacles) {
+    PathZone& zone = request->zones[request->zone_count++];
+    zone.shape.shape = ObstacleShape::kPolygon;
+    zone.shape.protection_first_m = between(0.03, 0.18);
+    const Vec centre{between(-23, 23), between(3, 26)};
+    const double radius_m = between(0.5, 3.6);
+    for (std::uint32_t i = 0; i < kMaxVertices; ++i) {
+      const double turn_rad = 2.0 * std::numbers::pi * i / kMaxVertices;
+      const double out_m = i % 2 == 0 ? radius_m : 0.6 * radius_m;
+      zone.shape.vertices[zone.shape.vertex_count++] = {centre.x() + out_m * std::sin(turn_rad),
+                                                        centre.y() + out_m * std::cos(turn_rad)};
+    }
+  }
+  const auto path = find_in_world(*request);
+  CHECK(path->reason == PathReason::kLimit);
+  CHECK(path->expansions == WorldPathFinder::kMaxTried);
+  CHECK(path->point_count == 0);
 }
 
 TEST_CASE("world_path_finder: nothing is remembered from one request to the next",

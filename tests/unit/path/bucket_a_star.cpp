@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "low_level/path/a_star.h"
+#include "tests/unit/path/bucket_a_star.h"
 
 #include <algorithm>
 #include <bit>
@@ -9,7 +9,7 @@
 
 #include "low_level/path/moves.h"
 
-namespace lodesman {
+namespace lodesman::testing {
 namespace {
 
 constexpr std::int32_t cost_of(int direction) noexcept {
@@ -35,21 +35,13 @@ PathPixel after(PathPixel pixel, int direction) noexcept {
 
 }  // namespace
 
-AStar::AStar(SearchLimits limits)
+BucketAStar::BucketAStar(SearchLimits limits)
     : limits_{limits}, nodes_(std::size_t{kViewRows} << kRowShift), path_(kMaxPathPixels) {
   static_assert(kViewColumns <= 1 << kRowShift);
 }
 
-SearchResult AStar::search(const PassableGrid& grid, PathPixel start, PathPixel goal) noexcept {
-  if (!grid.passable(start.column, start.row)) {
-    return {PathReason::kStartBlocked, 0, 0, {}};
-  }
-  if (!in_fan(goal.column, goal.row)) {
-    return {PathReason::kGoalOutOfView, 0, 0, {}};
-  }
-  if (!grid.passable(goal.column, goal.row)) {
-    return {PathReason::kGoalBlocked, 0, 0, {}};
-  }
+SearchResult BucketAStar::search(const PassableGrid& grid, PathPixel start,
+                                 PathPixel goal) noexcept {
   begin_search(start);
   push(index_of(goal), 0);
   SearchResult result = settle(grid, start, goal);
@@ -59,7 +51,7 @@ SearchResult AStar::search(const PassableGrid& grid, PathPixel start, PathPixel 
   return result;
 }
 
-void AStar::begin_search(PathPixel start) noexcept {
+void BucketAStar::begin_search(PathPixel start) noexcept {
   if (open_stamp_ >= std::numeric_limits<std::uint32_t>::max() - 4) {
     std::fill(nodes_.begin(), nodes_.end(), Node{});  // once in years: all stamps are used up
     open_stamp_ = 0;
@@ -70,14 +62,14 @@ void AStar::begin_search(PathPixel start) noexcept {
   start_ = start;
 }
 
-std::int32_t AStar::estimate(std::int32_t index) const noexcept {
+std::int32_t BucketAStar::estimate(std::int32_t index) const noexcept {
   const PathPixel pixel = pixel_of(index);
   const std::int32_t dx = std::abs(pixel.column - start_.column);
   const std::int32_t dy = std::abs(pixel.row - start_.row);
   return kStraightCost * std::max(dx, dy) + (kDiagonalCost - kStraightCost) * std::min(dx, dy);
 }
 
-void AStar::push(std::int32_t index, std::int32_t cost) noexcept {
+void BucketAStar::push(std::int32_t index, std::int32_t cost) noexcept {
   const std::uint32_t bucket = static_cast<std::uint32_t>(cost + estimate(index)) % kBuckets;
   const std::int32_t head = heads_[bucket];
   node(index) = {open_stamp_, cost, head, kNone};
@@ -88,7 +80,7 @@ void AStar::push(std::int32_t index, std::int32_t cost) noexcept {
   filled_ |= 1U << bucket;
 }
 
-void AStar::remove(std::int32_t index, std::int32_t f) noexcept {
+void BucketAStar::remove(std::int32_t index, std::int32_t f) noexcept {
   const std::uint32_t bucket = static_cast<std::uint32_t>(f) % kBuckets;
   const Node& gone = node(index);
   if (gone.next != kNone) {
@@ -104,7 +96,7 @@ void AStar::remove(std::int32_t index, std::int32_t f) noexcept {
   }
 }
 
-void AStar::reach(std::int32_t index, std::int32_t cost) noexcept {
+void BucketAStar::reach(std::int32_t index, std::int32_t cost) noexcept {
   const Node& known = node(index);
   if (known.stamp == open_stamp_) {
     if (cost < known.cost) {
@@ -116,7 +108,7 @@ void AStar::reach(std::int32_t index, std::int32_t cost) noexcept {
   }
 }
 
-void AStar::expand(const PassableGrid& grid, std::int32_t index) noexcept {
+void BucketAStar::expand(const PassableGrid& grid, std::int32_t index) noexcept {
   const PathPixel pixel = pixel_of(index);
   const std::int32_t cost = node(index).cost;
   for (unsigned moves = moves_from(grid, pixel); moves != 0; moves &= moves - 1) {
@@ -127,7 +119,8 @@ void AStar::expand(const PassableGrid& grid, std::int32_t index) noexcept {
 
 // Takes pixels in order of f until the start's cost to the goal is known and nothing in the open
 // list could lie on another path of that cost.
-SearchResult AStar::settle(const PassableGrid& grid, PathPixel start, PathPixel goal) noexcept {
+SearchResult BucketAStar::settle(const PassableGrid& grid, PathPixel start,
+                                 PathPixel goal) noexcept {
   SearchResult result;
   const std::int32_t start_index = index_of(start);
   std::int32_t f = estimate(index_of(goal));
@@ -159,15 +152,15 @@ SearchResult AStar::settle(const PassableGrid& grid, PathPixel start, PathPixel 
   return result;
 }
 
-std::int32_t AStar::cost_to_goal(PathPixel pixel) const noexcept {
+std::int32_t BucketAStar::cost_to_goal(PathPixel pixel) const noexcept {
   const Node& known = nodes_[static_cast<std::size_t>(index_of(pixel))];
   return known.stamp >= open_stamp_ ? known.cost : kNone;
 }
 
 // The step of the tie-break: to a pixel from which the goal costs just that step less. There is
 // one: the pixel's cost was reached from such a neighbour.
-PathPixel AStar::next_on_path(const PassableGrid& grid, PathPixel pixel,
-                              PathPixel goal) const noexcept {
+PathPixel BucketAStar::next_on_path(const PassableGrid& grid, PathPixel pixel,
+                                    PathPixel goal) const noexcept {
   const unsigned moves = moves_from(grid, pixel);
   const std::int32_t cost = cost_to_goal(pixel);
   PathPixel best = pixel;
@@ -191,7 +184,7 @@ PathPixel AStar::next_on_path(const PassableGrid& grid, PathPixel pixel,
   return best;
 }
 
-void AStar::walk(const PassableGrid& grid, PathPixel goal, SearchResult& result) noexcept {
+void BucketAStar::walk(const PassableGrid& grid, PathPixel goal, SearchResult& result) noexcept {
   PathPixel pixel = start_;
   std::size_t count = 0;
   path_[count++] = pixel;
@@ -206,4 +199,4 @@ void AStar::walk(const PassableGrid& grid, PathPixel goal, SearchResult& result)
   result.path = std::span<const PathPixel>{path_}.first(count);
 }
 
-}  // namespace lodesman
+}  // namespace lodesman::testing

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paper's A* (section 3, eq. (1)) over the pixels of the sonar view, giving a cheapest path and
-// always the same one of them. Owned by one thread; it allocates when made and never after.
+// A* pixel by pixel, as plain as it can be while fast enough for thousands of maps: what the tests
+// hold JumpPointSearch's costs and paths against. Owned by one thread.
 #pragma once
 
 #include <array>
@@ -11,49 +11,18 @@
 
 #include "low_level/path/grid.h"
 #include "low_level/path/moves.h"
-#include "mid_level/messages/path.h"
+#include "low_level/path/search_result.h"
 
-namespace lodesman {
+namespace lodesman::testing {
 
-struct SearchLimits {
-  // Every pixel of the view is taken from the open list once at most, so this default never ends
-  // a search.
-  std::uint32_t max_expansions = kViewColumns * kViewRows;  // [-]
-};
-
-struct SearchResult {
-  PathReason reason = PathReason::kNoPath;
-  std::int32_t cost_10_14 = 0;      // [-] 0 where not found
-  std::uint32_t expansions = 0;     // [-] pixels taken from the open list
-  std::span<const PathPixel> path;  // start to goal; empty where not found
-};
-
-// Moves are the paper's "4-geometry": 8 neighbours at 45 degrees, 10 straight and 14 diagonal, a
-// diagonal step only where both pixels beside it are passable. The cost is the least there is.
-//
-// Which of several cheapest paths is given (the tie-break):
-//   1. From the start on, at every pixel, the step is taken that ends nearest to the straight line
-//      from start to goal, among the steps that lie on any cheapest path.
-//   2. Where two steps end equally near, it is the one that ends to starboard of the line; of two
-//      on one side, the one that ends nearer to the goal.
-//
-// Why: a cheapest path of eight directions may lie anywhere in a wide parallelogram; this one keeps
-// to the straight line and leaves it only where an obstacle makes it. A vehicle that follows it
-// heads for the goal, turns for an obstacle as late as costs nothing, and turns back as soon as it
-// is past, as the paper's does (section 4.4: at 26 s it is nearly at the protection circle and
-// still takes a new side; 20.9 m in all for a goal 20 m away). Starboard is the side that boats
-// meeting head-on take.
-//
-// The rule speaks of the map, start and goal alone, not of a search: any search that knows the
-// exact cost to the goal of the pixels on cheapest paths can follow it. This one starts from the
-// goal and goes on until the open list holds nothing as cheap as the found cost; the cost of each
-// pixel it reached is then its cost to the goal, and the path is walked forwards from the start.
-class AStar {
+// It starts from the goal and goes on until the open list holds nothing as cheap as the found
+// cost; the cost of each pixel it reached is then its cost to the goal, and the path is walked
+// forwards by the rule of tie_break.h, said here in words of its own.
+class BucketAStar {
  public:
-  explicit AStar(SearchLimits limits = {});
+  explicit BucketAStar(SearchLimits limits = {});
 
-  // Checked in this order: kStartBlocked (also where the start is not in the fan), kGoalOutOfView,
-  // kGoalBlocked, kLimit, kNoPath. The result's path is valid until the next search.
+  // Start and goal must be passable. The path is valid until the next search.
   [[nodiscard]] SearchResult search(const PassableGrid& grid, PathPixel start,
                                     PathPixel goal) noexcept;
 
@@ -109,4 +78,4 @@ class AStar {
   PathPixel start_;
 };
 
-}  // namespace lodesman
+}  // namespace lodesman::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "low_level/path/a_star.h"
+#include "low_level/path/path_search.h"
 
 #include <algorithm>
 #include <iostream>
@@ -63,20 +63,20 @@ void draw_corridors(PassableGrid& grid) {
   }
 }
 
-TEST_CASE("a_star: on random grids the path is the one that the rule and Dijkstra give",
+TEST_CASE("search: on random grids the path is the one that the rule and Dijkstra give",
           "[low_level][path]") {
   constexpr unsigned kSeed = 20251;
   std::cout << "seed " << kSeed << '\n';
   std::mt19937 random{kSeed};
   PassableGrid grid;
-  AStar a_star;
+  PathSearch search;
   int found = 0;
   for (int i = 0; i < 500; ++i) {
     const Window window = random_window(random, grid);
     const PathPixel start = random_pixel(random, window);
     const PathPixel goal = random_pixel(random, window);
     CAPTURE(i, start.column, start.row, goal.column, goal.row);
-    const SearchResult result = a_star.search(grid, start, goal);
+    const SearchResult result = search.search(grid, start, goal);
     const std::vector<int> costs = dijkstra(grid, window, goal);
     if (!grid.passable(start.column, start.row)) {
       REQUIRE(result.reason == PathReason::kStartBlocked);
@@ -95,72 +95,75 @@ TEST_CASE("a_star: on random grids the path is the one that the rule and Dijkstr
   REQUIRE(found > 150);
 }
 
-TEST_CASE("a_star: each reason is given, and a blocked start comes before a goal out of view",
+TEST_CASE("search: each reason is given, and a blocked start comes before a goal out of view",
           "[low_level][path]") {
   PassableGrid grid;
-  AStar a_star;
+  PathSearch search{GENERATE(Geometry::k4, Geometry::k8)};
   const PathPixel goal = pixel(433, 100);
-  REQUIRE(a_star.search(grid, kApex, goal).reason == PathReason::kFound);
-  REQUIRE(a_star.search(grid, kApex, pixel(0, 499)).reason == PathReason::kGoalOutOfView);
-  REQUIRE(a_star.search(grid, kApex, pixel(433, -1)).reason == PathReason::kGoalOutOfView);
-  REQUIRE(a_star.search(grid, kApex, pixel(-1, -1)).reason == PathReason::kGoalOutOfView);
-  REQUIRE(a_star.search(grid, pixel(-1, -1), goal).reason == PathReason::kStartBlocked);
+  REQUIRE(search.search(grid, kApex, goal).reason == PathReason::kFound);
+  REQUIRE(search.search(grid, kApex, pixel(0, 499)).reason == PathReason::kGoalOutOfView);
+  REQUIRE(search.search(grid, kApex, pixel(433, -1)).reason == PathReason::kGoalOutOfView);
+  REQUIRE(search.search(grid, kApex, pixel(-1, -1)).reason == PathReason::kGoalOutOfView);
+  REQUIRE(search.search(grid, pixel(-1, -1), goal).reason == PathReason::kStartBlocked);
 
   grid.block(EllipsePx{{433.0, 100.0}, 10.0, 10.0});
-  REQUIRE(a_star.search(grid, kApex, goal).reason == PathReason::kGoalBlocked);
+  REQUIRE(search.search(grid, kApex, goal).reason == PathReason::kGoalBlocked);
   grid.clear();
   for (int column = 0; column < kViewColumns; ++column) {
     grid.block(pixel(column, 300));
   }
-  const SearchResult none = a_star.search(grid, kApex, goal);
+  const SearchResult none = search.search(grid, kApex, goal);
   REQUIRE(none.reason == PathReason::kNoPath);
   REQUIRE(none.expansions > 0);
   REQUIRE(none.path.empty());
 
   grid.block(kApex);
-  REQUIRE(a_star.search(grid, kApex, goal).reason == PathReason::kStartBlocked);
-  REQUIRE(a_star.search(grid, kApex, pixel(0, 499)).reason == PathReason::kStartBlocked);
+  REQUIRE(search.search(grid, kApex, goal).reason == PathReason::kStartBlocked);
+  REQUIRE(search.search(grid, kApex, pixel(0, 499)).reason == PathReason::kStartBlocked);
 }
 
-TEST_CASE("a_star: a start that is the goal is a path of one pixel", "[low_level][path]") {
+TEST_CASE("search: a start that is the goal is a path of one pixel", "[low_level][path]") {
   PassableGrid grid;
-  AStar a_star;
-  const SearchResult result = a_star.search(grid, kApex, kApex);
+  PathSearch search{GENERATE(Geometry::k4, Geometry::k8)};
+  const SearchResult result = search.search(grid, kApex, kApex);
   REQUIRE(result.reason == PathReason::kFound);
   REQUIRE(result.cost_10_14 == 0);
   REQUIRE(result.path.size() == 1);
 }
 
-TEST_CASE("a_star: a clear way straight ahead takes no pixel beside it from the open list",
+TEST_CASE("search: a clear way straight ahead takes nothing but the goal from the open list",
           "[low_level][path]") {
   PassableGrid grid;
-  AStar a_star;
-  const SearchResult result = a_star.search(grid, kApex, pixel(433, 100));
+  PathSearch search;
+  const SearchResult result = search.search(grid, kApex, pixel(433, 100));
   REQUIRE(result.cost_10_14 == 3990);
   REQUIRE(result.path.size() == 400);
-  REQUIRE(result.expansions == 400);
+  REQUIRE(result.expansions == 1);
 }
 
-TEST_CASE("a_star: no diagonal step passes a blocked corner", "[low_level][path]") {
+TEST_CASE("search: no diagonal step passes a blocked corner", "[low_level][path]") {
   PassableGrid grid;
-  AStar a_star;
+  PathSearch search;
   grid.block(pixel(434, 300));
-  const SearchResult one = a_star.search(grid, pixel(433, 300), pixel(434, 299));
+  const SearchResult one = search.search(grid, pixel(433, 300), pixel(434, 299));
   REQUIRE(one.cost_10_14 == 20);
   REQUIRE(one.path.size() == 3);
   grid.block(pixel(433, 299));
-  REQUIRE(a_star.search(grid, pixel(433, 300), pixel(434, 299)).cost_10_14 > 20);
+  REQUIRE(search.search(grid, pixel(433, 300), pixel(434, 299)).cost_10_14 > 20);
 }
 
-TEST_CASE("a_star: a search that meets its bound of expansions ends with kLimit",
+TEST_CASE("search: a search that meets its bound of expansions ends with kLimit",
           "[low_level][path]") {
+  const Geometry geometry = GENERATE(Geometry::k4, Geometry::k8);
   PassableGrid grid;
+  grid.block(EllipsePx{{433.0, 300.0}, 60.0, 60.0});
   const PathPixel goal = pixel(433, 100);
-  const std::uint32_t needed = AStar{}.search(grid, kApex, goal).expansions;
-  REQUIRE(needed > 0);
-  REQUIRE(AStar{SearchLimits{needed}}.search(grid, kApex, goal).reason == PathReason::kFound);
+  const std::uint32_t needed = PathSearch{geometry}.search(grid, kApex, goal).expansions;
+  REQUIRE(needed > 1);
+  PathSearch enough{geometry, SearchLimits{needed}};
+  REQUIRE(enough.search(grid, kApex, goal).reason == PathReason::kFound);
 
-  AStar limited{SearchLimits{needed - 1}};
+  PathSearch limited{geometry, SearchLimits{needed - 1}};
   const SearchResult result = limited.search(grid, kApex, goal);
   REQUIRE(result.reason == PathReason::kLimit);
   REQUIRE(result.expansions == needed - 1);
@@ -169,24 +172,24 @@ TEST_CASE("a_star: a search that meets its bound of expansions ends with kLimit"
   REQUIRE(limited.search(grid, kApex, pixel(433, 498)).reason == PathReason::kFound);
 }
 
-TEST_CASE("a_star: a path of kMaxPathPixels is given, and a longer one is kLimit",
+TEST_CASE("search: a path of kMaxPathPixels is given, and a longer one is kLimit",
           "[low_level][path]") {
   PassableGrid grid;
-  AStar a_star;
+  PathSearch search;
   draw_corridors(grid);
   const PathPixel goal = pixel(433, 100);
-  REQUIRE(a_star.search(grid, pixel(433, 400), goal).reason == PathReason::kLimit);
+  REQUIRE(search.search(grid, pixel(433, 400), goal).reason == PathReason::kLimit);
 
   // Down one corridor after another the path grows; in one of them it becomes just too long.
   int row = 100;
-  while (a_star.search(grid, pixel(433, row), goal).reason == PathReason::kFound) {
+  while (search.search(grid, pixel(433, row), goal).reason == PathReason::kFound) {
     row += 2;
     REQUIRE(row <= 400);
   }
   std::size_t longest = 0;
   for (int column = 283; column <= 583; ++column) {
     for (const int tried : {row - 2, row}) {
-      const SearchResult result = a_star.search(grid, pixel(column, tried), goal);
+      const SearchResult result = search.search(grid, pixel(column, tried), goal);
       REQUIRE(result.reason != PathReason::kNoPath);
       longest = std::max(longest, result.path.size());
     }
@@ -194,11 +197,11 @@ TEST_CASE("a_star: a path of kMaxPathPixels is given, and a longer one is kLimit
   REQUIRE(longest == kMaxPathPixels);
 }
 
-TEST_CASE("a_star: what was searched before changes nothing", "[low_level][path]") {
+TEST_CASE("search: what was searched before changes nothing", "[low_level][path]") {
   PassableGrid grid;
   grid.block(EllipsePx{{433.0, 300.0}, 60.0, 60.0});
-  AStar fresh;
-  AStar used;
+  PathSearch fresh;
+  PathSearch used;
   for (const int column : {300, 500, 433}) {
     REQUIRE(used.search(grid, kApex, pixel(column, 150)).reason == PathReason::kFound);
   }
