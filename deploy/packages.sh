@@ -6,7 +6,6 @@ build_packages="g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev libs
   nlohmann-json3-dev libgeographiclib-dev libxxhash-dev libgnuplot-iostream-dev gnuplot-nox"
 test_packages="catch2"
 tidy_packages="clang-tidy"
-bench_packages="libompl-dev"  # of tests/bench/gate.sh alone
 
 say() { echo "lodesman: $*" >&2; }
 

@@ -22,7 +22,7 @@ TEST_CASE("heading: a displacement to the east heads 90 degrees", "[mid_level][b
   CHECK(to_deg(Heading::of_displacement(0, 0).rad()) == Approx(0).margin(1e-12));
 }
 
-TEST_CASE("heading: wrapping is idempotent and files show [0, 360)", "[mid_level][base]") {
+TEST_CASE("heading: wrapping is idempotent and files show 0 to 360 degrees", "[mid_level][base]") {
   std::mt19937_64 random{7};
   std::uniform_real_distribution<double> angle{-1000.0, 1000.0};
   for (int i = 0; i < 1000; ++i) {

@@ -21,7 +21,7 @@ TEST_CASE("heading control: it takes the short way round through north", "[high_
   CHECK(head_ref(deg(10), deg(350), 2.0) == -40);
 }
 
-TEST_CASE("heading control: HeadRef is a whole number in [-100, 100]", "[high_level][control]") {
+TEST_CASE("heading control: HeadRef is a whole number from -100 to 100", "[high_level][control]") {
   CHECK(head_ref(deg(0), deg(170), 2.0) == 100);
   CHECK(head_ref(deg(0), deg(-170), 2.0) == -100);
   CHECK(head_ref(deg(0), deg(1.3), 1.0) == 1);
