@@ -62,6 +62,7 @@ class OperatorDesk {
     if (const auto* plan = plan_.latest(); plan != nullptr) {
       reply["plan"] = {{"id", plan->value.id},
                        {"reason", to_string(plan->value.reason)},
+                       {"rung", to_string(plan->value.rung)},
                        {"waypoints", to_string(plan->value.source)},
                        {"age_s", to_seconds(now - plan->stamp)}};
     }

@@ -178,11 +178,16 @@ void ManoeuvreChooser::foresee_hazards(Time now, const Tracks& tracks) noexcept 
     const Track& track = tracks.tracks[i];
     Hazard& hazard = hazards_[hazard_count_++];
     hazard.track = &track;
-    hazard.velocity_m_s = track.sure_share() * Vec{track.velocity_x_m_s, track.velocity_y_m_s};
+    // What does not surely move is taken to rest: its doubt would grow for ever.
+    hazard.velocity_m_s.setZero();
+    hazard.velocity_sigma_m_s = 0.0;
+    if (track.surely_moves()) {
+      hazard.velocity_sigma_m_s =
+          larger_sigma(track.velocity_xx_m2_s2, track.velocity_xy_m2_s2, track.velocity_yy_m2_s2);
+      hazard.velocity_m_s = {track.velocity_x_m_s, track.velocity_y_m_s};
+    }
     hazard.age_s = to_seconds(now - track.last_seen);
     hazard.place_sigma_m = larger_sigma(track.place_xx_m2, track.place_xy_m2, track.place_yy_m2);
-    hazard.velocity_sigma_m_s =
-        larger_sigma(track.velocity_xx_m2_s2, track.velocity_xy_m2_s2, track.velocity_yy_m2_s2);
     enclose(track.shape, hazard.centre, hazard.around_m);
     fastest_m_s = std::max(fastest_m_s, hazard.velocity_m_s.norm());
   }

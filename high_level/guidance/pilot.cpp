@@ -15,6 +15,8 @@ using Vec = Eigen::Vector2d;
 constexpr double kPassing_m = 4.0;   // an obstacle whose zone is farther off a path is not passed
 constexpr double kOutside_m = 0.02;  // a start nearer than this to a zone is put outside it
 constexpr double kSlightly_m = 0.4;  // no deeper in a zone it is beside the path, not astray
+constexpr double kBetter_m = 1.5;    // nearer to the goal by this is a better place to wait at
+constexpr int kAsksForBest = 10;     // pings on the way to one, before the goal is asked for again
 constexpr double kArrived_m = 0.8;   // so near to a place to wait at is there ...
 constexpr double kDrifted_m = 2.5;   // ... and so far from it no more
 
@@ -38,6 +40,7 @@ void Pilot::start() noexcept {
   chooser_.forget();
   side_count_ = 0;
   holding_ = false;
+  best_.reset();
 }
 
 OwnMotion Pilot::when_it_takes_effect(Time now, const VehicleState& state) const noexcept {
@@ -68,7 +71,10 @@ void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const
       escaping_ = clear_m < -kSlightly_m;
     }
   }
-  if (zone_clearance_m(request, end) < 0.0) {
+  asked_for_best_ = asks_for_best();
+  if (asked_for_best_) {
+    end = *best_;
+  } else if (zone_clearance_m(request, end) < 0.0) {
     // Where it waits it may turn: a zone leaves room for half the beam, not half the length.
     const double room_m = options_.response.hull_half_length_m - options_.zones.hull_radius_m;
     if (const auto free = nearest_free(request, end, start, std::max(kOutside_m, room_m))) {
@@ -98,11 +104,15 @@ void Pilot::ask_for_sides(PathRequest& request) const noexcept {
 
 void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const VehicleState& state,
                    Plan& plan) noexcept {
-  make_route(path);
+  const bool best_kept = keeps_best(path);
+  if (!best_kept) {
+    make_route(path);
+  }
   if (path.reason == PathReason::kFound) {
     remember_sides(route_);
   }
-  const bool stay_at_end = stay_ || goal_moved_ || path.reason != PathReason::kFound;
+  const bool stay_at_end =
+      stay_ || goal_moved_ || asked_for_best_ || path.reason != PathReason::kFound;
   const double share = path.narrow ? options_.narrow_speed_share : 1.0;
   const OwnMotion own = when_it_takes_effect(now, state);
   const auto& choice = chooser_.choose(now, own, route_, tracks, share, stay_at_end);
@@ -127,6 +137,39 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
     plan.course_rad = goal.norm() > kDrifted_m ? std::atan2(goal.x(), goal.y()) : own.heading_rad;
   }
   explain(path, choice, plan);
+}
+
+// On the way to the best point the goal itself is asked for now and then; there, always.
+bool Pilot::asks_for_best() noexcept {
+  const bool there = best_ && (*best_ - own_W_).norm() < kDrifted_m;
+  if (!best_ || there || asks_for_best_ == kAsksForBest) {
+    asks_for_best_ = 0;
+    return false;
+  }
+  ++asks_for_best_;
+  return true;
+}
+
+// Whether the best point stands that is made for already, and with it the route to it. Points round
+// a closed goal are much alike, and each look shows another one as the nearest.
+bool Pilot::keeps_best(const SonarPath& path) noexcept {
+  if (asked_for_best_) {
+    best_ = path.reason == PathReason::kFound ? best_ : std::nullopt;
+    return false;
+  }
+  if (path.reason != PathReason::kNoPath || path.point_count == 0) {
+    best_.reset();
+    return false;
+  }
+  const PathPoint& last = path.points[path.point_count - 1];
+  const Vec goal{asked_->goal_x_m, asked_->goal_y_m};
+  const Vec nearest{last.x_m, last.y_m};
+  const bool stands = best_ && zone_clearance_m(*asked_, *best_) > -kSlightly_m &&
+                      (*best_ - goal).norm() < (nearest - goal).norm() + kBetter_m;
+  if (!stands) {
+    best_ = nearest;
+  }
+  return stands;
 }
 
 void Pilot::make_route(const SonarPath& path) noexcept {
@@ -169,9 +212,10 @@ void Pilot::remember_sides(const Route& route) noexcept {
 
 void Pilot::explain(const SonarPath& path, const ManoeuvreChooser::Choice& choice,
                     Plan& plan) const noexcept {
-  plan.reason = escaping_                                          ? PathReason::kStartBlocked
-                : goal_moved_ && path.reason == PathReason::kFound ? PathReason::kGoalBlocked
-                                                                   : path.reason;
+  const PathReason found = asked_for_best_ ? PathReason::kNoPath : path.reason;
+  plan.reason = escaping_                                    ? PathReason::kStartBlocked
+                : goal_moved_ && found == PathReason::kFound ? PathReason::kGoalBlocked
+                                                             : found;
   plan.narrow = path.narrow;
   plan.changed = choice.changed || path.sides_changed;
   // Of a manoeuvre the cause is what following the route would come to.
@@ -188,7 +232,7 @@ void Pilot::explain(const SonarPath& path, const ManoeuvreChooser::Choice& choic
     plan.rung = PlanRung::kHold;
   } else if (escaping_) {
     plan.rung = PlanRung::kEscape;
-  } else if (path.reason != PathReason::kFound) {
+  } else if (found != PathReason::kFound) {
     plan.rung = PlanRung::kBestPoint;
   } else if (goal_moved_) {
     plan.rung = PlanRung::kNearGoal;

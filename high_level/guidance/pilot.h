@@ -7,6 +7,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "high_level/guidance/manoeuvre.h"
 #include "high_level/guidance/zones.h"
@@ -51,6 +52,8 @@ class Pilot {
   void ask_for_sides(PathRequest& request) const noexcept;
   void remember_sides(const Route& route) noexcept;
   void make_route(const SonarPath& path) noexcept;
+  [[nodiscard]] bool asks_for_best() noexcept;
+  [[nodiscard]] bool keeps_best(const SonarPath& path) noexcept;
   void explain(const SonarPath& path, const ManoeuvreChooser::Choice& choice,
                Plan& plan) const noexcept;
 
@@ -60,10 +63,14 @@ class Pilot {
   std::unique_ptr<PathRequest> asked_ = std::make_unique<PathRequest>();
   bool escaping_ = false;
   bool goal_moved_ = false;
+  bool asked_for_best_ = false;
   bool stay_ = false;
   bool holding_ = false;  // in the last plan
   Eigen::Vector2d own_W_ = Eigen::Vector2d::Zero();
   Route route_;
+  // Where nothing leads to the goal: the point that is made for instead, until another is better.
+  std::optional<Eigen::Vector2d> best_;
+  int asks_for_best_ = 0;  // since the goal itself was asked for
   std::array<KeptSide, kMaxObstacles> sides_{};
   std::size_t side_count_ = 0;
 };

@@ -56,7 +56,8 @@ void make_zones(const ZoneOptions& options, const Tracks& tracks, Time now, cons
   request.zone_count = 0;
   for (std::uint32_t i = 0; i < std::min<std::uint32_t>(tracks.count, kMaxObstacles); ++i) {
     const Track& track = tracks.tracks[i];
-    const Vec velocity = track.sure_share() * Vec{track.velocity_x_m_s, track.velocity_y_m_s};
+    const Vec velocity =
+        track.surely_moves() ? Vec{track.velocity_x_m_s, track.velocity_y_m_s} : Vec{0.0, 0.0};
     if (velocity.norm() > options.slow_share * speed_m_s) {
       continue;
     }

@@ -207,7 +207,7 @@ void draw(const Conic& conic, BitLines& lines, Contains contains) noexcept {
     return;
   }
   lines.announce(all, places, true);
-  Batch batch;
+  Batch batch;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
   Roundness roundness;
   for (int line = all.first; line <= all.last; line += kBatch) {
     const int count = std::min(kBatch, all.last - line + 1);

@@ -15,7 +15,7 @@ namespace {
 // A step with what it costs and, as bits of the square of five by five round its start, the pixels
 // that must be free for it.
 struct Move {
-  Step step;
+  Step step{};
   std::int32_t cost = 0;
   std::uint32_t needs = 0;
 };

@@ -15,6 +15,7 @@ namespace lodesman {
 // sight must be looked at anew.
 class PathWalk::Choices {
  public:
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): arrays are written as they are filled
   Choices(const TieBreak& rule, PathPixel at) noexcept : rule_{rule}, off_{rule.off(at)} {}
 
   void add(const Way& way) noexcept {

@@ -30,12 +30,12 @@ struct Track {
   double velocity_xy_m2_s2 = 0.0;  // [m^2/s^2]
   double velocity_yy_m2_s2 = 0.0;  // [m^2/s^2] >= 0
 
-  // What of the velocity can be relied on: most things rest, and a velocity that is not much larger
-  // than its doubt is taken for noise (the positive part of James and Stein).
-  [[nodiscard]] double sure_share() const noexcept {
+  // Whether its velocity is more than its doubt can explain, once in a thousand (chi squared of two
+  // degrees of freedom). Most things rest: foreseen for a minute, noise would carry them far.
+  [[nodiscard]] bool surely_moves() const noexcept {
+    constexpr double kChiSquared = 13.8;
     const double squared = velocity_x_m_s * velocity_x_m_s + velocity_y_m_s * velocity_y_m_s;
-    const double variance = velocity_xx_m2_s2 + velocity_yy_m2_s2;
-    return squared > variance ? 1.0 - variance / squared : 0.0;
+    return squared > 0.5 * kChiSquared * (velocity_xx_m2_s2 + velocity_yy_m2_s2);
   }
 
   static constexpr auto fields() noexcept {

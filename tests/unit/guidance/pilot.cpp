@@ -211,6 +211,48 @@ TEST_CASE("pilot: without a path it goes to the best point and waits", "[high_le
   CHECK(bridge.plan->rung == PlanRung::kHold);
 }
 
+TEST_CASE(
+    "pilot: of points that are as near to a closed goal one is made for, until another is better",
+    "[high_level][guidance]") {
+  const Tracks none = tracks_of({});
+  Bridge bridge;
+  const auto asked_y_m = [&](double own_x_m) {
+    bridge.ask(none, state_at(own_x_m, 0), {0, 30});
+    return bridge.request->goal_y_m;
+  };
+  CHECK(asked_y_m(0) == Approx(30));
+  bridge.decide(none, state_at(0, 0), PathReason::kNoPath, {{0, 0}, {-8, 30}});
+  // On the way there it is asked for itself, the goal now and then.
+  CHECK(asked_y_m(0) == Approx(30));
+  CHECK(bridge.request->goal_x_m == Approx(-8));
+  bridge.decide(none, state_at(0, 0), PathReason::kFound, {{0, 0}, {-8, 30}});
+  CHECK(bridge.plan->rung == PlanRung::kBestPoint);
+  CHECK(bridge.plan->reason == PathReason::kNoPath);
+  int until_goal = 0;
+  do {
+    (void)asked_y_m(0);
+    ++until_goal;
+  } while (std::abs(bridge.request->goal_x_m) > 1.0 && until_goal < 100);
+  CHECK(until_goal <= 10);
+  // A little better, on the other side: no reason to go there.
+  bridge.decide(none, state_at(0, 0), PathReason::kNoPath, {{0, 0}, {7.5, 30}});
+  CHECK(bridge.plan->waypoints[bridge.plan->waypoint_count - 1].x_m == Approx(-8));
+  // Much better: it is.
+  while (std::abs(bridge.request->goal_x_m) > 1.0) {
+    (void)asked_y_m(0);
+  }
+  bridge.decide(none, state_at(0, 0), PathReason::kNoPath, {{0, 0}, {4, 30}});
+  CHECK(bridge.plan->waypoints[bridge.plan->waypoint_count - 1].x_m == Approx(4));
+  // And once the goal can be reached, that is forgotten.
+  do {
+    (void)asked_y_m(0);
+  } while (std::abs(bridge.request->goal_x_m) > 1.0);
+  bridge.decide(none, state_at(0, 0), PathReason::kFound, {{0, 0}, {0, 30}});
+  CHECK(bridge.plan->rung == PlanRung::kOnRoute);
+  (void)asked_y_m(0);
+  CHECK(bridge.request->goal_x_m == Approx(0).margin(1e-9));
+}
+
 TEST_CASE("pilot: narrow water is gone through slowly", "[high_level][guidance]") {
   const Tracks none = tracks_of({});
   Bridge bridge;

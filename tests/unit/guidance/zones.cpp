@@ -78,6 +78,18 @@ TEST_CASE("zones: what moves faster than the stated share of our speed has none"
   CHECK(request->zones[0].shape.id == 2);
 }
 
+TEST_CASE("zones: a velocity that may be noise is none", "[high_level][guidance]") {
+  Track track = disc_track(1, 0, 10, 0.1, 0.0);
+  const auto placed_x_m = [&](double velocity_sigma_m_s) {
+    track.velocity_xx_m2_s2 = track.velocity_yy_m2_s2 = velocity_sigma_m_s * velocity_sigma_m_s;
+    PathRequest request;
+    make_zones(default_zones(), tracks_of({track}), at_s(0), {0, 0}, 1.0, request);
+    return request.zones[0].shape.centre_x_m;
+  };
+  CHECK(placed_x_m(0.02) > 0.5);
+  CHECK(placed_x_m(0.03) == Approx(0.0).margin(1e-12));
+}
+
 TEST_CASE("zones: each lies where its obstacle will be when we can be there",
           "[high_level][guidance]") {
   const auto now = zones_of(tracks_of({disc_track(1, 0, 10, 0.2, 0.0)}));
