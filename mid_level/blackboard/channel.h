@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A channel: one writer, many readers, a ring of the last N whole values. There is no lock and no
+// A channel: one writer, many readers, a ring of the last few whole values. There is no lock and no
 // pointer in it, so it may lie in shared memory, and a writer that is killed in the middle of a
 // publication leaves the last whole value in place. publish() and the Reader's calls are wait-free
 // or bounded and allocate nothing; a Writer or Reader belongs to one thread.
@@ -58,16 +58,16 @@ struct ChannelHead {
 };
 
 // Atomic is std::atomic; a test puts one in its place that lets it choose what comes before what.
-template <Wire T, std::size_t N, template <class> class Atomic = std::atomic>
+template <Wire T, std::size_t kDepth, template <class> class Atomic = std::atomic>
 class Channel {
-  static_assert(N >= 2, "a ring needs a whole value beside the one being written");
+  static_assert(kDepth >= 2, "a ring needs a whole value beside the one being written");
 
  public:
   using Value = T;
-  static constexpr std::size_t kSlots = N;
+  static constexpr std::size_t kSlots = kDepth;
 
   ChannelHead<T, Atomic> head;
-  std::array<ChannelSlot<T, Atomic>, N> slots;
+  std::array<ChannelSlot<T, Atomic>, kDepth> slots;
 
   // Frees the claim of a program that is known to be dead.
   void release_claim_of(Role role) noexcept {
@@ -81,9 +81,9 @@ template <Wire T, template <class> class Atomic = std::atomic>
 class Writer {
  public:
   // Throws StartupError when the channel has a writer already.
-  template <std::size_t N>
-  Writer(Channel<T, N, Atomic>& channel, Role role, const char* name)
-      : head_{&channel.head}, slots_{channel.slots.data()}, count_{N} {
+  template <std::size_t kDepth>
+  Writer(Channel<T, kDepth, Atomic>& channel, Role role, const char* name)
+      : head_{&channel.head}, slots_{channel.slots.data()}, count_{kDepth} {
     std::uint32_t nobody = 0;
     if (!head_->writer.compare_exchange_strong(nobody, static_cast<std::uint32_t>(role),
                                                std::memory_order_acq_rel)) {
@@ -143,11 +143,11 @@ class Writer {
 template <Wire T, template <class> class Atomic = std::atomic>
 class Reader {
  public:
-  template <std::size_t N>
-  explicit Reader(const Channel<T, N, Atomic>& channel)
+  template <std::size_t kDepth>
+  explicit Reader(const Channel<T, kDepth, Atomic>& channel)
       : head_{&channel.head},
         slots_{channel.slots.data()},
-        count_{N},
+        count_{kDepth},
         held_{std::make_unique<Stamped<T>>()},
         spare_{std::make_unique<Stamped<T>>()} {}
 

@@ -65,8 +65,8 @@ class Follower {
 template <class T>
 class ChannelFollower final : public Follower {
  public:
-  template <std::size_t N>
-  ChannelFollower(std::uint64_t index, const Channel<T, N>& channel)
+  template <std::size_t kDepth>
+  ChannelFollower(std::uint64_t index, const Channel<T, kDepth>& channel)
       : index_{index}, reader_{channel} {}
 
   void update(HashSink& sink) noexcept override {
@@ -93,8 +93,8 @@ struct RecordingHash::Impl {
 
 RecordingHash::RecordingHash(const Blackboard& board) : impl_{std::make_unique<Impl>()} {
   XXH3_128bits_reset(impl_->state.get());
-  for_each_channel(board, [this]<class T, std::size_t N>(const ChannelInfo& /*info*/,
-                                                         const Channel<T, N>& channel) {
+  for_each_channel(board, [this]<class T, std::size_t kDepth>(const ChannelInfo& /*info*/,
+                                                              const Channel<T, kDepth>& channel) {
     impl_->channels.push_back(
         std::make_unique<ChannelFollower<T>>(impl_->channels.size(), channel));
   });
