@@ -62,7 +62,7 @@ constexpr double kToPort_s = 0.5;  // to starboard where nothing else decides
 
 // The heading that leads along a way in the current, at that speed through the water.
 [[nodiscard]] double steered_for(const Vec& way, const OwnMotion& own, double speed_m_s) noexcept {
-  if (own.current_m_s.squaredNorm() < kStillWater_m_s * kStillWater_m_s) {
+  if (speed_m_s <= 0.0 || own.current_m_s.squaredNorm() < kStillWater_m_s * kStillWater_m_s) {
     return heading_of(way);
   }
   return heading_of(velocity_for_course(way.normalized(), speed_m_s, own.current_m_s));

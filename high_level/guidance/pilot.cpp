@@ -57,6 +57,10 @@ OwnMotion Pilot::when_it_takes_effect(Time now, const VehicleState& state) const
 void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const WorldPoint& goal,
                 bool stay, PathRequest& request) noexcept {
   stay_ = stay;
+  if (goal.xy_m != best_for_W_) {
+    best_.reset();  // another waypoint, or a place to hold: it stood for the last goal
+    best_for_W_ = goal.xy_m;
+  }
   own_W_ = when_it_takes_effect(now, state).p_W;
   request.space = PathSpace::kWorld;
   request.side_gain_m = options_.side_gain_m;

@@ -70,7 +70,8 @@ class Pilot {
   Route route_;
   // Where nothing leads to the goal: the point that is made for instead, until another is better.
   std::optional<Eigen::Vector2d> best_;
-  int asks_for_best_ = 0;  // since the goal itself was asked for
+  Eigen::Vector2d best_for_W_ = Eigen::Vector2d::Zero();  // the goal it stands for
+  int asks_for_best_ = 0;                                 // since the goal itself was asked for
   std::array<KeptSide, kMaxObstacles> sides_{};
   std::size_t side_count_ = 0;
 };

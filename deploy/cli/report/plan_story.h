@@ -9,8 +9,8 @@
 
 namespace lodesman::cli {
 
-// "12.3 s: steers 48 deg, at full speed; obstacle 2, 0.31 m clear in 8 s (plan 0.15 s old)";
-// the clearance is what the manoeuvre leaves.
+// "12.3 s: steers 48 deg, at full speed; on the path obstacle 2, 0.31 m clear in 8 s (plan 0.15 s
+// old)": of a manoeuvre, what following the path would have come to.
 [[nodiscard]] std::string describe(const PlanRecord& plan);
 
 class PlanStory {

@@ -44,3 +44,13 @@ TEST_CASE("drift: a jump of the position after a silence is no current", "[high_
   const Vec known = drift.follow(Time{from_seconds(9.0)}, {{50.0, 50.0}}, {0.0, 0.22});
   CHECK(known.norm() == Approx(0.0).margin(1e-9));
 }
+
+TEST_CASE("drift: a position that is mended at one stroke is no current",
+          "[high_level][estimate]") {
+  DriftEstimate drift{milliseconds{10000}};
+  (void)known_after(drift, 1.0, 5.0, 0.0);
+  const double last_s = 4.95;
+  const Vec known = drift.follow(Time{from_seconds(last_s + 0.05)},
+                                 {{30.0, 0.22 * (last_s + 0.05)}}, {0.0, 0.22});
+  CHECK(known.norm() == Approx(0.0).margin(1e-9));
+}

@@ -253,6 +253,19 @@ TEST_CASE(
   CHECK(bridge.request->goal_x_m == Approx(0).margin(1e-9));
 }
 
+TEST_CASE("pilot: the best point for one goal is none for a place to hold",
+          "[high_level][guidance]") {
+  const Tracks none = tracks_of({});
+  Bridge bridge;
+  bridge.ask(none, state_at(0, 0), {0, 30});
+  bridge.decide(none, state_at(0, 0), PathReason::kNoPath, {{0, 0}, {-8, 30}});
+  bridge.ask(none, state_at(0, 0), {0, 30});
+  REQUIRE(bridge.request->goal_x_m == Approx(-8));  // on the way there
+  bridge.ask(none, state_at(0, 1), {0, 1}, true);
+  CHECK(bridge.request->goal_x_m == Approx(0).margin(1e-9));
+  CHECK(bridge.request->goal_y_m == Approx(1));
+}
+
 TEST_CASE("pilot: narrow water is gone through slowly", "[high_level][guidance]") {
   const Tracks none = tracks_of({});
   Bridge bridge;
