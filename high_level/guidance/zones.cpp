@@ -48,7 +48,15 @@ constexpr double kOutside_m = 0.05;  // beyond the edge, so that a search accept
 }  // namespace
 
 double sure_zone_m(const ZoneOptions& options, double speed_m_s) noexcept {
-  return options.hull_radius_m + options.margin_m + options.margin_per_speed_s * speed_m_s;
+  const double turning_radius_m = speed_m_s / options.turn_rate_max_rad_s;
+  return options.hull_radius_m + options.margin_m + options.margin_per_speed_s * speed_m_s +
+         options.margin_per_turning_radius * turning_radius_m;
+}
+
+void put_zone(Obstacle& shape, double clear_m) noexcept {
+  const bool ellipse = shape.shape == ObstacleShape::kEllipse;
+  shape.protection_first_m = clear_m + (ellipse ? shape.semi_axis_first_m : 0.0);
+  shape.protection_second_m = clear_m + (ellipse ? shape.semi_axis_second_m : 0.0);
 }
 
 void make_zones(const ZoneOptions& options, const Tracks& tracks, Time now, const Vec& from_W,
@@ -74,9 +82,7 @@ void make_zones(const ZoneOptions& options, const Tracks& tracks, Time now, cons
     const double doubt_m =
         std::min(options.doubt_max_m, options.doubt_sigmas * std::sqrt(variance_m2));
     const double clear_m = sure_zone_m(options, speed_m_s) + doubt_m;
-    const bool ellipse = zone.shape.shape == ObstacleShape::kEllipse;
-    zone.shape.protection_first_m = clear_m + (ellipse ? zone.shape.semi_axis_first_m : 0.0);
-    zone.shape.protection_second_m = clear_m + (ellipse ? zone.shape.semi_axis_second_m : 0.0);
+    put_zone(zone.shape, clear_m);
     zone.give_m = std::max(0.0, clear_m - options.hull_radius_m - options.least_margin_m);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Zones of our own making round tracks: shape + hull + a margin that grows with the planned speed
-// and with doubt; and what to do when start or goal lie in one. Pure functions; any thread.
+// Zones of our own making round tracks: shape + hull + a margin that grows with the planned speed,
+// with the circle the vehicle needs to turn at it, and with doubt; and what to do when start or
+// goal lie in one. Pure functions; any thread.
 #pragma once
 
 #include <optional>
@@ -12,12 +13,14 @@
 namespace lodesman {
 
 struct ZoneOptions {
-  double hull_radius_m = 0.0;       // [m] half the beam
-  double margin_m = 0.0;            // [m] at no speed and no doubt
-  double margin_per_speed_s = 0.0;  // [s] more of it a metre a second of planned speed
-  double least_margin_m = 0.0;      // [m] in water that is too narrow for more
-  double doubt_sigmas = 0.0;        // [-] standard deviations of a track's place that are added ...
-  double doubt_max_m = 0.0;         // [m] ... up to this
+  double hull_radius_m = 0.0;              // [m] half the beam
+  double margin_m = 0.0;                   // [m] at no speed and no doubt
+  double margin_per_speed_s = 0.0;         // [s] more of it a metre a second of planned speed ...
+  double margin_per_turning_radius = 0.0;  // [-] ... and for the radius of its narrowest turn at it
+  double turn_rate_max_rad_s = 1.0;        // [rad/s] > 0
+  double least_margin_m = 0.0;             // [m] in water that is too narrow for more
+  double doubt_sigmas = 0.0;  // [-] standard deviations of a track's place that are added ...
+  double doubt_max_m = 0.0;   // [m] ... up to this
   // A track that moves faster than this share of the planned speed has no zone: where it will be
   // when the vehicle is there is the manoeuvres' to foresee.
   double slow_share = 0.0;  // [-]
@@ -25,6 +28,9 @@ struct ZoneOptions {
 
 // [m] from an obstacle that nothing is doubtful about to the edge of its zone.
 [[nodiscard]] double sure_zone_m(const ZoneOptions& options, double speed_m_s) noexcept;
+
+// Makes a shape's protection a zone that begins so far from it.
+void put_zone(Obstacle& shape, double clear_m) noexcept;
 
 // Makes the request's zones, each placed where its obstacle will be when a vehicle at `from` with
 // that speed can be there. protection_first/second_m are the full zone, give_m what of it may be

@@ -13,6 +13,8 @@ namespace {
   options.zones.hull_radius_m = zones.number("hull_radius_m", Range::between(0.0, 10.0));
   options.zones.margin_m = zones.number("margin_m", Range::between(0.0, 20.0));
   options.zones.margin_per_speed_s = zones.number("margin_per_speed_s", Range::between(0.0, 20.0));
+  options.zones.margin_per_turning_radius =
+      zones.number("margin_per_turning_radius", Range::between(0.0, 20.0));
   options.zones.least_margin_m = zones.number("least_margin_m", Range::between(0.0, 20.0));
   options.zones.doubt_sigmas = zones.number("doubt_sigmas", Range::between(0.0, 10.0));
   options.zones.doubt_max_m = zones.number("doubt_max_m", Range::between(0.0, 20.0));
@@ -36,6 +38,7 @@ namespace {
   options.response.surge_time_s = vehicle.number("surge_time_s", Range::above(0.0, 100.0));
   options.response.turn_rate_max_rad_s =
       vehicle.number("turn_rate_max_rad_s", Range::above(0.0, 5.0));
+  options.zones.turn_rate_max_rad_s = options.response.turn_rate_max_rad_s;
   options.response.heading_gain_per_s =
       vehicle.number("heading_gain_per_s", Range::above(0.0, 100.0));
   return options;

@@ -116,11 +116,7 @@ Scenario with_planned_zones(Scenario scenario, const HighLevelOptions& options) 
   for (MovingObstacle& obstacle : scenario.obstacles) {
     const bool slow = std::hypot(obstacle.velocity_x_m_s, obstacle.velocity_y_m_s) <=
                       pilot.zones.slow_share * speed_m_s;
-    const double zone_m = slow ? sure_zone_m(pilot.zones, speed_m_s) : 0.0;
-    Obstacle& shape = obstacle.at_start;
-    const bool ellipse = shape.shape == ObstacleShape::kEllipse;
-    shape.protection_first_m = zone_m + (ellipse ? shape.semi_axis_first_m : 0.0);
-    shape.protection_second_m = zone_m + (ellipse ? shape.semi_axis_second_m : 0.0);
+    put_zone(obstacle.at_start, slow ? sure_zone_m(pilot.zones, speed_m_s) : 0.0);
   }
   return scenario;
 }

@@ -60,7 +60,9 @@ inline ZoneOptions default_zones() {
   ZoneOptions options;
   options.hull_radius_m = 0.6;
   options.margin_m = 0.8;
-  options.margin_per_speed_s = 0.4;
+  options.margin_per_speed_s = 0.2;
+  options.margin_per_turning_radius = 0.07;
+  options.turn_rate_max_rad_s = 0.35;
   options.least_margin_m = 0.45;
   options.doubt_sigmas = 2.0;
   options.doubt_max_m = 1.5;

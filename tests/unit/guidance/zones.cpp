@@ -50,6 +50,17 @@ TEST_CASE("zones: a zone is shape, hull and a margin that grows with the speed",
   CHECK(fast->zones[0].shape.protection_first_m == Approx(2.3));
 }
 
+TEST_CASE("zones: the margin grows with the circle that a vehicle needs to turn",
+          "[high_level][guidance]") {
+  ZoneOptions nimble = default_zones();
+  ZoneOptions ponderous = nimble;
+  ponderous.turn_rate_max_rad_s = nimble.turn_rate_max_rad_s / 4.0;
+  const double more_m = nimble.margin_per_turning_radius * 3.0 / nimble.turn_rate_max_rad_s;
+  CHECK(sure_zone_m(ponderous, 1.0) - sure_zone_m(nimble, 1.0) == Approx(more_m));
+  CHECK(sure_zone_m(ponderous, 0.5) - sure_zone_m(nimble, 0.5) == Approx(more_m / 2.0));
+  CHECK(sure_zone_m(ponderous, 0.0) == Approx(sure_zone_m(nimble, 0.0)));
+}
+
 TEST_CASE("zones: a wall's zone is its margin alone", "[high_level][guidance]") {
   const auto request = zones_of(tracks_of({wall_track(2, {{-5, 8}, {5, 8}})}));
   REQUIRE(request->zone_count == 1);
