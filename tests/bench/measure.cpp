@@ -59,6 +59,7 @@ class Bench {
  private:
   template <class Work>
   void time(Column column, int turns, Work work) {
+    work();  // untimed: whoever had the turn before has left the caches full of its own
     const double began = thread_us();
     for (int i = 0; i < turns; ++i) {
       work();
