@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the path finder against a reference A* and Boost.Graph, in one run and on frames that
-// were never seen before; docs/performance.md says how to read it. One thread.
+// Measures the path finder beside others, in one run and on frames that were never seen before;
+// docs/performance.md says how to read it. One thread.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -136,9 +136,12 @@ int main(int argc, char** argv) {
   lodesman::bench::Options options;
   CLI::App app{"Measures the path finder against others on random frames"};
   app.add_option("--seed", options.seed, "Of the frames [a fresh one each run]");
-  app.add_option("--frames", options.frames, "Of each of the eight kinds")->capture_default_str();
+  app.add_option("--frames", options.frames, "Of each of the eight kinds")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   app.add_option("--repetitions", options.repetitions, "Of each planner on each frame")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   app.add_option("--json", options.json, "Write what was measured to this file");
   app.add_option("--markdown", options.markdown, "Replace the tables in this file");
   app.add_option("--file", options.file, "Frames for the main table instead of random ones");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times planners side by side on the same random frames. One thread.
+// Times planners side by side on the same random frames, with Google Benchmark and all repetitions
+// in an order drawn at random. One thread.
 #pragma once
 
 #include <array>
@@ -20,13 +21,13 @@ enum class Column : std::uint8_t {
   kReference,  // reference_a_star.h: bitmap to path
   kBoost,      // boost_a_star.h: bitmap to path
   kOmpl,       // ompl_rrt_connect.h: bitmap to any path, or its time box; 0 where it is left out
-  kCopy,       // copying the bitmap of rows, as a measure of the machine
+  kCopy,       // copying as many words as the bitmap of rows has, as a measure of the machine
 };
 inline constexpr std::size_t kColumns = 6;
 inline constexpr std::array<std::string_view, kColumns> kColumnNames{
     "step", "search", "reference A*", "Boost A*", "OMPL RRTConnect", "copy"};
 
-// A frame's median times.
+// A frame's median times, in processor time of the thread.
 struct FrameTimes {
   testing::FrameKind kind = testing::FrameKind::kOpen;
   std::array<double, kColumns> us{};
@@ -38,7 +39,7 @@ struct Workload {
   int times = 1;                          // obstacles, as FrameMaker has it
   int frames = 25;                        // of each kind
   std::vector<testing::FrameKind> kinds;  // empty: all
-  int repetitions = 5;                    // of each planner on each frame, taking turns
+  int repetitions = 5;                    // of each planner on each frame
   bool with_others = true;                // reference, Boost and OMPL
 };
 
