@@ -30,6 +30,7 @@ struct Options {
   std::string markdown;
   std::string file;
   std::string pictures;
+  bool brief = false;
   double gate = 0.0;
 };
 
@@ -70,10 +71,10 @@ std::vector<Growth> grow_obstacles(const Options& options) {
   return growth;
 }
 
-// Between the two marks of a Markdown file.
+// Between this program's two marks in a Markdown file.
 void replace_tables(const std::string& path, const std::string& tables) {
-  const std::string begin = "<!-- bench_path begins -->\n";
-  const std::string end = "<!-- bench_path ends -->";
+  const std::string begin = "<!-- " LODESMAN_PROGRAM " begins -->\n";
+  const std::string end = "<!-- " LODESMAN_PROGRAM " ends -->";
   std::ifstream in{path};
   std::string text{std::istreambuf_iterator<char>{in}, {}};
   const std::size_t from = text.find(begin);
@@ -112,19 +113,22 @@ bool passes(const Options& options) {
 
 void run(const Options& options) {
   const std::vector<FrameTimes> frames = measure_frames(options);
-  const std::vector<Growth> grid = grow_grid(options);
-  const std::vector<Growth> obstacles = grow_obstacles(options);
-  const std::string tables = heading_of(options, frames.size()) + table_of(frames) + "\n" +
-                             table_of(grid) + "\n" + table_of(obstacles);
+  nlohmann::ordered_json json{{"seed", options.seed}, {"planners", to_json(frames)}};
+  std::string tables = heading_of(options, frames.size());
+  if (options.brief) {
+    tables += summary_of(frames);
+  } else {
+    const std::vector<Growth> grid = grow_grid(options);
+    const std::vector<Growth> obstacles = grow_obstacles(options);
+    json["grid"] = to_json(grid);
+    json["obstacles"] = to_json(obstacles);
+    tables += table_of(frames) + "\n" + table_of(grid) + "\n" + table_of(obstacles);
+  }
   std::fputs(tables.c_str(), stdout);
   if (!options.markdown.empty()) {
     replace_tables(options.markdown, tables);
   }
   if (!options.json.empty()) {
-    const nlohmann::ordered_json json{{"seed", options.seed},
-                                      {"planners", to_json(frames)},
-                                      {"grid", to_json(grid)},
-                                      {"obstacles", to_json(obstacles)}};
     std::ofstream{options.json} << json.dump(2) << '\n';
   }
 }
@@ -143,7 +147,8 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_option("--json", options.json, "Write what was measured to this file");
-  app.add_option("--markdown", options.markdown, "Replace the tables in this file");
+  app.add_option("--markdown", options.markdown, "Replace this program's tables in this file");
+  app.add_flag("--brief", options.brief, "Only the main table's lines over all frames");
   app.add_option("--file", options.file, "Frames for the main table instead of random ones");
   app.add_option("--pictures", options.pictures,
                  "Only draw what is looked at on one random frame, into this folder");
@@ -152,7 +157,7 @@ int main(int argc, char** argv) {
                  "reference A* at the median");
   CLI11_PARSE(app, argc, argv);
   try {
-    std::fprintf(stderr, "bench_path: seed %u\n", options.seed);
+    std::fprintf(stderr, LODESMAN_PROGRAM ": seed %u\n", options.seed);
     if (!options.pictures.empty()) {
       lodesman::testing::FrameMaker frames{options.seed};
       lodesman::bench::draw_pictures(frames.make(lodesman::testing::FrameKind::kMulti),
@@ -164,7 +169,7 @@ int main(int argc, char** argv) {
     }
     lodesman::bench::run(options);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_path: %s\n", error.what());
+    std::fprintf(stderr, LODESMAN_PROGRAM ": %s\n", error.what());
     return 1;
   }
   return 0;

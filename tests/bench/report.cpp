@@ -87,15 +87,18 @@ Json to_json(std::span<const Growth> growth) {
   return json;
 }
 
-std::string table_of(std::span<const FrameTimes> frames) {
-  std::string text =
+std::string summary_of(std::span<const FrameTimes> frames) {
+  const std::string head =
       "| frames | our step us | our search us | reference A* us | Boost A* us "
       "| OMPL RRTConnect us | copy us | reference / step | Boost / step | reference / search "
       "| step / copy |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|\n";
-  text += row("all, median", frames, 0.5);
-  text += row("all, p99", frames, 0.99);
-  text += row("all, worst", frames, 1.0);
+  return head + row("all, median", frames, 0.5) + row("all, p99", frames, 0.99) +
+         row("all, worst", frames, 1.0);
+}
+
+std::string table_of(std::span<const FrameTimes> frames) {
+  std::string text = summary_of(frames);
   for (std::size_t kind = 0; kind < testing::kFrameKindNames.size(); ++kind) {
     text +=
         row(std::string{testing::kFrameKindNames[kind]} + ", median", of_kind(frames, kind), 0.5);

@@ -25,6 +25,8 @@ struct Growth {
 [[nodiscard]] nlohmann::ordered_json to_json(std::span<const FrameTimes> frames);
 [[nodiscard]] nlohmann::ordered_json to_json(std::span<const Growth> growth);
 
+// The lines over all frames, and those with a line for each kind besides.
+[[nodiscard]] std::string summary_of(std::span<const FrameTimes> frames);
 [[nodiscard]] std::string table_of(std::span<const FrameTimes> frames);
 [[nodiscard]] std::string table_of(std::span<const Growth> growth);
 
