@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "low_level/path/span_loops.h"
 #include "mid_level/base/check.h"
 
 namespace lodesman {
@@ -16,33 +17,29 @@ BitLines::BitLines(int length, std::span<const LineSpan> outlines)
     : lines_{static_cast<int>(outlines.size())},
       length_{length},
       used_words_{(length + 2) / 64 + 1},  // so that the last two bits of a line are always clear
-      stride_shift_{static_cast<int>(std::bit_width(static_cast<unsigned>(used_words_ - 1)))},
+      stride_{lines_ + 2 * kSpareLines},
       outlines_(outlines.begin(), outlines.end()),
       even_(outlines.size()),
-      outline_words_((outlines.size() + 2 * kSpareLines) << stride_shift_) {
+      outline_words_(static_cast<std::size_t>((used_words_ + 2) * stride_)) {
   LODESMAN_CHECK(length > 0 && used_words_ <= kMaxWords && lines_ > 0);
-  outline_words_.resize(outline_words_.size() + 2);
-  words_ = outline_words_;
   crowded_.resize(outlines.size() + 2);
   crowd_.resize(static_cast<std::size_t>(used_words_) * (outlines.size() / 64 + 3));
-  far_crowd_ = crowd_;
-  ragged_up_ = crowd_;
-  ragged_down_ = crowd_;
+  turns_ = crowd_;
   for (int line = 0; line < lines_; ++line) {
     const LineSpan span = outlines_[static_cast<std::size_t>(line)];
     for (int place = span.first; place <= span.last; ++place) {
-      outline_words_[offset_of(line) + static_cast<std::size_t>(place >> 6)] |= std::uint64_t{1}
-                                                                                << (place & 63);
+      outline_words_[static_cast<std::size_t>(place_of(line, place >> 6))] |= std::uint64_t{1}
+                                                                              << (place & 63);
     }
   }
   words_ = outline_words_;
-  find_ragged_ends();
+  find_even_parts();
   find_full_lines();
 }
 
 // Where a line begins before its neighbour does, a run up it passes the place where the neighbour
 // begins: a turn may open there although nothing is crowded. The same at the other end, downwards.
-void BitLines::find_ragged_ends() {
+void BitLines::find_even_parts() {
   for (int line = 0; line < lines_; ++line) {
     const LineSpan own = outlines_[static_cast<std::size_t>(line)];
     LineSpan even = own;
@@ -55,18 +52,6 @@ void BitLines::find_ragged_ends() {
       }
     }
     even_[static_cast<std::size_t>(line)] = even;
-    for (int word = 0; word < used_words_; ++word) {
-      const bool up =
-          even.first > own.first && word <= (even.first - 1) >> 6 && word + 1 >= own.first >> 6;
-      const bool down =
-          even.last < own.last && word >= (even.last + 1) >> 6 && word - 1 <= own.last >> 6;
-      if (up) {
-        set_lines_in(ragged_up_, std::uint64_t{1} << word, {line, line});
-      }
-      if (down) {
-        set_lines_in(ragged_down_, std::uint64_t{1} << word, {line, line});
-      }
-    }
   }
 }
 
@@ -75,7 +60,7 @@ void BitLines::find_full_lines() {
   for (int word = 0; word < used_words_; ++word) {
     LineSpan run;  // of full lines, up to here
     for (int line = 0; line < lines_; ++line) {
-      const bool is_full = outline_words_[offset_of(line) + static_cast<std::size_t>(word)] == kAll;
+      const bool is_full = outline_words_[static_cast<std::size_t>(place_of(line, word))] == kAll;
       run = is_full && run.first <= run.last ? LineSpan{run.first, line}
             : is_full                        ? LineSpan{line, line}
                                              : LineSpan{};
@@ -89,19 +74,19 @@ void BitLines::find_full_lines() {
 // memory, which would have to come near.
 void BitLines::clear(LineSpan lines, int word) noexcept {
   const LineSpan full = full_lines_.data()[word];
-  std::size_t at = offset_of(lines.first) + static_cast<std::size_t>(word);
-  const std::size_t stride = std::size_t{1} << stride_shift_;
-  int line = lines.first;
-  const auto copy_to = [&](int end) {
-    for (; line < end; ++line, at += stride) {
-      words_.data()[at] = outline_words_.data()[at];
+  const auto copy = [&](int first, int end) {
+    if (first < end) {
+      std::copy_n(outline_words_.data() + place_of(first, word), end - first, cell(first, word));
     }
   };
-  copy_to(std::min(full.first, lines.last + 1));
-  for (const int end = std::min(full.last, lines.last) + 1; line < end; ++line, at += stride) {
-    words_.data()[at] = kAll;
+  const LineSpan inside{std::max(full.first, lines.first), std::min(full.last, lines.last)};
+  if (inside.first > inside.last) {
+    copy(lines.first, lines.last + 1);
+    return;
   }
-  copy_to(lines.last + 1);
+  copy(lines.first, inside.first);
+  std::fill_n(cell(inside.first, word), inside.last + 1 - inside.first, kAll);
+  copy(inside.last + 1, lines.last + 1);
 }
 
 void BitLines::clear() noexcept {
@@ -115,7 +100,7 @@ void BitLines::clear() noexcept {
   }
   taken_count_ = 0;
   std::fill(crowd_.begin(), crowd_.end(), 0);
-  std::fill(far_crowd_.begin(), far_crowd_.end(), 0);
+  std::fill(turns_.begin(), turns_.end(), 0);
 }
 
 void BitLines::block_all() noexcept {
@@ -127,28 +112,9 @@ void BitLines::block_all() noexcept {
   }
 }
 
-void BitLines::block(int line, int count, const std::int32_t* first,
-                     const std::int32_t* last) noexcept {
-  std::uint64_t* words = line_of(line);
-  const std::size_t stride = std::size_t{1} << stride_shift_;
-  for (int i = 0; i < count; ++i, words += stride) {
-    if (first[i] > last[i]) {
-      continue;
-    }
-    const int first_word = first[i] >> 6;
-    const int last_word = last[i] >> 6;
-    const std::uint64_t before = ~(kAll << (first[i] & 63));
-    const std::uint64_t after = ~std::uint64_t{1} << (last[i] & 63);
-    if (first_word == last_word) {
-      words[first_word] &= before | after;
-      continue;
-    }
-    words[first_word] &= before;
-    words[last_word] &= after;
-    for (int word = first_word + 1; word < last_word; ++word) {
-      words[word] = 0;
-    }
-  }
+void BitLines::block(int line, int count, const std::int32_t* first, const std::int32_t* last,
+                     LineSpan places) noexcept {
+  span_loops().block(cell(line, 0), stride_, places, count, first, last);
 }
 
 void BitLines::announce(LineSpan lines, LineSpan places, bool round) noexcept {
@@ -170,11 +136,16 @@ void BitLines::announce(LineSpan lines, LineSpan places, bool round) noexcept {
     crowded_.data()[line + 1] |= felt_words;
   }
   // A corner is felt one line and one place beside it.
-  const LineSpan felt{std::max(lines.first - 1, 0), std::min(lines.last + 1, lines_ - 1)};
-  set_lines_in(crowd_, felt_words, felt);
+  set_lines_in(crowd_, felt_words,
+               {std::max(lines.first - 1, 0), std::min(lines.last + 1, lines_ - 1)});
   if (!round) {
-    set_lines_in(far_crowd_, felt_words, felt);
+    end_jagged(lines, places);
   }
+}
+
+void BitLines::end_jagged(LineSpan lines, LineSpan places) noexcept {
+  set_lines_in(turns_, words_round(places),
+               {std::max(lines.first - 1, 0), std::min(lines.last + 1, lines_ - 1)});
 }
 
 void BitLines::end_round(LineSpan lines, LineSpan places) noexcept {
@@ -184,7 +155,7 @@ void BitLines::end_round(LineSpan lines, LineSpan places) noexcept {
   }
   for (const int line : {lines.first - 1, lines.last + 1}) {
     if (line >= 0 && line < lines_) {
-      set_lines_in(far_crowd_, words_round(places), {line, line});
+      set_lines_in(turns_, words_round(places), {line, line});
     }
   }
 }

@@ -2,50 +2,42 @@
 #include "low_level/path/ellipse_raster.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 
 #include "low_level/path/line_ends.h"
+#include "low_level/path/span_loops.h"
 
 namespace lodesman {
 namespace {
 
-// An ellipse about a bitmap's lines: p runs along a line and q counts the lines, both from the
-// centre; inside where along * p^2 + 2 * mixed * p * q + across * q^2 <= 1.
-struct Conic {
-  double centre_p;
-  double centre_q;
-  double chord;   // half the width of the line through the centre, in places
-  double slope;   // by how much the middle moves a line
-  double height;  // from the centre to the last line
-  double width;   // from the centre to the last place
-  bool is_tame;   // neither large, small nor thin, so that float numbers are good enough
-};
+// An ellipse about rows; about columns it is the same with p and q changed over.
+struct BothConics {
+  Conic rows{};
+  Conic columns{};
+  bool are_tame = false;  // neither large, small nor thin, so that float numbers are good enough
 
-Conic conic_of(const EllipsePx& e, double cos_theta, double sin_theta, double centre_p,
-               double centre_q) noexcept {
-  const double cos_a = cos_theta / e.a;
-  const double sin_a = sin_theta / e.a;
-  const double cos_b = cos_theta / e.b;
-  const double sin_b = sin_theta / e.b;
-  const double along = cos_a * cos_a + sin_b * sin_b;
-  const double across = sin_a * sin_a + cos_b * cos_b;
-  const double root = std::sqrt(along);
-  Conic conic{};
-  conic.centre_p = centre_p;
-  conic.centre_q = centre_q;
-  conic.chord = 1.0 / root;
-  conic.slope = (cos_a * sin_a - sin_b * cos_b) / along;
-  conic.height = e.a * e.b * root;
-  conic.width = e.a * e.b * std::sqrt(across);
-  const double longer = std::max(e.a, e.b);
-  conic.is_tame = std::min(e.a, e.b) >= 1.0 && longer <= 500.0 &&
-                  longer <= 10.0 * std::min(e.a, e.b) && std::abs(centre_p) <= 1e4 &&
-                  std::abs(centre_q) <= 1e4 &&
-                  std::abs(cos_theta * cos_theta + sin_theta * sin_theta - 1.0) <= 1e-12;
-  return conic;
-}
+  explicit BothConics(const EllipsePx& e) noexcept {
+    const double cos_a = e.cos_theta / e.a;
+    const double sin_a = e.sin_theta / e.a;
+    const double cos_b = e.cos_theta / e.b;
+    const double sin_b = e.sin_theta / e.b;
+    const double along = cos_a * cos_a + sin_b * sin_b;
+    const double across = sin_a * sin_a + cos_b * cos_b;
+    const double mixed = cos_a * sin_a - sin_b * cos_b;
+    const double half_rows = e.a * e.b * std::sqrt(along);
+    const double half_columns = e.a * e.b * std::sqrt(across);
+    rows = {e.centre.column, e.centre.row, 1.0 / std::sqrt(along),
+            mixed / along,   half_rows,    half_columns};
+    columns = {e.centre.row,   e.centre.column, 1.0 / std::sqrt(across),
+               mixed / across, half_columns,    half_rows};
+    const double longer = std::max(e.a, e.b);
+    are_tame = std::min(e.a, e.b) >= 1.0 && longer <= 500.0 &&
+               longer <= 10.0 * std::min(e.a, e.b) && std::abs(e.centre.column) <= 1e4 &&
+               std::abs(e.centre.row) <= 1e4 &&
+               std::abs(e.cos_theta * e.cos_theta + e.sin_theta * e.sin_theta - 1.0) <= 1e-12;
+  }
+};
 
 // Where a line about begins and ends.
 struct Ends {
@@ -66,77 +58,18 @@ struct Ends {
   // is left under the root: the numbers are below 1e4 and exact to 1e-12, and what magnifies their
   // errors, here and in contains(), stays below 1e5.
   [[nodiscard]] bool are_sure() const noexcept {
-    return left > 1e-4 && std::abs(low - std::round(low)) > 1e-3 &&
-           std::abs(high - std::round(high)) > 1e-3;
-  }
-};
-
-// In float numbers the ends of a tame ellipse are off by less than half of kUnsure, as long as the
-// line is not among the first and last, where less than kFlat is left under the root. (The root
-// magnifies an error of q by the ellipse's proportions over the root of kFlat, by 80 at most; q and
-// all places are below 1600 and so exact to 2^-14.) An end that lies no nearer than kUnsure to a
-// place's centre is therefore on the side that it seems.
-constexpr float kUnsure = 1.0F / 256.0F;
-constexpr float kFlat = 1.0F / 64.0F;
-
-// Lines are worked out so many at a time, in a loop that compilers turn into vectors.
-constexpr int kBatch = 64;
-
-struct Batch {
-  std::array<std::int32_t, kBatch> first;
-  std::array<std::int32_t, kBatch> last;
-  std::array<float, kBatch> surety;  // below zero: the places may be wrong
-
-  // Of a tame ellipse: what lies in the view of each line. A few lines more than asked for are
-  // worked out, so that no vector is left half full.
-  void work_out(const Conic& conic, int first_line, int count, int length) noexcept {
-    // Places are counted from one that lies before all of the ellipse: a conversion to int then
-    // rounds down.
-    constexpr int kBefore = 1024;
-    const int base = static_cast<int>(std::floor(conic.centre_p)) - kBefore;
-    const auto centre = static_cast<float>(conic.centre_p - base);
-    const auto begin = static_cast<float>(first_line - conic.centre_q);
-    const auto per_height = static_cast<float>(1.0 / conic.height);
-    const auto chord = static_cast<float>(conic.chord);
-    const auto slope = static_cast<float>(conic.slope);
-    // Between the last place before the view and its first, and between its last and the next:
-    // nowhere near a place's centre.
-    const float before_view = static_cast<float>(-base) - 0.75F;
-    const float view_end = static_cast<float>(length - base) - 0.75F;
-    const int whole_vectors = (count + 7) & ~7;
-    for (int i = 0; i < whole_vectors; ++i) {
-      const float q = begin + static_cast<float>(i);
-      const float share = q * per_height;
-      const float left = 1.0F - share * share;
-      const float half = chord * std::sqrt(std::max(left, 0.0F));
-      const float middle = centre - slope * q;
-      const float low = std::min(std::max(middle - half, before_view), view_end);
-      const float high = std::min(std::max(middle + half, before_view), view_end);
-      const auto below_low = static_cast<std::int32_t>(low);
-      const auto below_high = static_cast<std::int32_t>(high);
-      const float off_low = std::abs(low - static_cast<float>(below_low) - 0.5F);
-      const float off_high = std::abs(high - static_cast<float>(below_high) - 0.5F);
-      first.data()[i] = below_low + 1 + base;
-      last.data()[i] = below_high + base;
-      surety.data()[i] = std::min(0.5F - kUnsure - std::max(off_low, off_high), left - kFlat);
-    }
-  }
-
-  // Whether all of the lines have a place and touch their neighbours, if only at a corner.
-  [[nodiscard]] bool touch(int from, int to) const noexcept {
-    std::int32_t gap = last.data()[from] - first.data()[from];
-    for (int i = from + 1; i < to; ++i) {
-      gap |= (last.data()[i] - first.data()[i]) | (last.data()[i - 1] + 1 - first.data()[i]) |
-             (last.data()[i] + 1 - first.data()[i - 1]);
-    }
-    return gap >= 0;
+    const auto from_centre = [](double end) {  // of the nearest place
+      const double past = end - static_cast<double>(static_cast<std::int64_t>(end));
+      return std::min(std::abs(past), 1.0 - std::abs(past));
+    };
+    return left > 1e-4 && from_centre(low) > 1e-3 && from_centre(high) > 1e-3;
   }
 };
 
 // What makes a shape round (BitLines::announce), gathered batch by batch.
 class Roundness {
  public:
-  void add(const Batch& batch, int line, int count) noexcept {
+  void add(const SpanBatch& batch, int line, int count) noexcept {
     int from = 0;
     int to = count;
     while (from < to && batch.first.data()[from] > batch.last.data()[from]) {
@@ -148,7 +81,7 @@ class Roundness {
     if (from == to) {
       return;
     }
-    round_ = round_ && batch.touch(from, to);
+    round_ = round_ && span_loops().touch(batch, from, to);
     if (lines_.first <= lines_.last) {
       round_ = round_ && lines_.last == line + from - 1 &&
                batch.first.data()[from] <= end_.last + 1 &&
@@ -193,11 +126,7 @@ LineSpan careful_span(const Conic& conic, int line, LineSpan view, Contains cont
 }
 
 template <class Contains>
-void draw(const Conic& conic, BitLines& lines, Contains contains) noexcept {
-  if (!conic.is_tame) {
-    draw_wild(conic, lines, contains);
-    return;
-  }
+void draw_tame(const Conic& conic, BitLines& lines, Contains contains) noexcept {
   const double reach = conic.height + 0.01;  // rounding is far less
   const LineSpan all{first_from(conic.centre_q - reach, 0, lines.lines()),
                      last_from(conic.centre_q + reach, 0, lines.lines()) - 1};
@@ -207,39 +136,37 @@ void draw(const Conic& conic, BitLines& lines, Contains contains) noexcept {
     return;
   }
   lines.announce(all, places, true);
-  Batch batch;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
+  SpanBatch batch;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
   Roundness roundness;
-  for (int line = all.first; line <= all.last; line += kBatch) {
-    const int count = std::min(kBatch, all.last - line + 1);
-    batch.work_out(conic, line, count, lines.length());
-    for (int i = 0; i < count; ++i) {
-      if (batch.surety.data()[i] < 0.0F) {
-        const LineSpan span = careful_span(conic, line + i, {0, lines.length() - 1}, contains);
-        batch.first.data()[i] = span.first;
-        batch.last.data()[i] = span.last;
-      }
-    }
-    lines.block(line, count, batch.first.data(), batch.last.data());
+  for (int line = all.first; line <= all.last; line += SpanBatch::kLines) {
+    const int count = std::min(SpanBatch::kLines, all.last - line + 1);
+    span_loops().work_out(batch, conic, line, count, lines.length());
+    batch.take_care(count, [&](int i) {
+      return careful_span(conic, line + i, {0, lines.length() - 1}, contains);
+    });
+    lines.block(line, count, batch.first.data(), batch.last.data(), places);
     roundness.add(batch, line, count);
   }
   if (roundness.is_round()) {
     lines.end_round(roundness.lines(), places);
   } else {
-    lines.announce(all, places);
+    lines.end_jagged(all, places);
   }
 }
 
 }  // namespace
 
-void draw_in_rows(const EllipsePx& e, BitLines& rows) noexcept {
-  const Conic conic = conic_of(e, e.cos_theta, e.sin_theta, e.centre.column, e.centre.row);
-  draw(conic, rows, [&](int column, int row) { return e.contains(column, row); });
-}
-
-void draw_in_columns(const EllipsePx& e, BitLines& columns) noexcept {
-  // With rows and columns changed over, an ellipse turned by theta is turned by pi/2 - theta.
-  const Conic conic = conic_of(e, e.sin_theta, e.cos_theta, e.centre.row, e.centre.column);
-  draw(conic, columns, [&](int row, int column) { return e.contains(column, row); });
+void draw(const EllipsePx& e, BitLines& rows, BitLines& columns) noexcept {
+  const BothConics conics{e};
+  const auto in_rows = [&e](int column, int row) { return e.contains(column, row); };
+  const auto in_columns = [&e](int row, int column) { return e.contains(column, row); };
+  if (conics.are_tame) {
+    draw_tame(conics.rows, rows, in_rows);
+    draw_tame(conics.columns, columns, in_columns);
+  } else {
+    draw_wild(conics.rows, rows, in_rows);
+    draw_wild(conics.columns, columns, in_columns);
+  }
 }
 
 }  // namespace lodesman

@@ -126,10 +126,7 @@ void PassableGrid::block(PathPixel pixel) noexcept {
   columns_.block(pixel.column, row);
 }
 
-void PassableGrid::block(const EllipsePx& ellipse) noexcept {
-  draw_in_rows(ellipse, rows_);
-  draw_in_columns(ellipse, columns_);
-}
+void PassableGrid::block(const EllipsePx& ellipse) noexcept { draw(ellipse, rows_, columns_); }
 
 void PassableGrid::block(const CapsulePx& capsule) noexcept {
   block(WallPx{{capsule.from, capsule.to}, 2, capsule.radius, false});
@@ -166,9 +163,8 @@ void PassableGrid::block(const ZonePx& zone) noexcept {
 std::uint32_t PassableGrid::free_pixels() const noexcept {
   int count = 0;
   for (int row = 0; row < fan_.rows; ++row) {
-    const std::uint64_t* const words = rows_.words(row);
     for (int i = 0; i < rows_.words_per_line(); ++i) {
-      count += std::popcount(words[i]);
+      count += std::popcount(rows_.word(row, i));
     }
   }
   return static_cast<std::uint32_t>(count);
@@ -228,7 +224,7 @@ void PassableGrid::copy_to_columns(LineSpan rows, LineSpan columns) noexcept {
     for (int left = columns.first & ~63; left <= columns.last; left += 64) {
       std::array<std::uint64_t, 64> square{};
       for (int i = 0; i < std::min(64, fan_.rows - top); ++i) {
-        square[static_cast<std::size_t>(i)] = rows_.words(top + i)[left / 64];
+        square[static_cast<std::size_t>(i)] = rows_.word(top + i, left / 64);
       }
       transpose(square);
       for (int i = 0; i < std::min(64, fan_.columns - left); ++i) {

@@ -31,12 +31,11 @@ std::int32_t Joined::cut(const BitLines& lines, int line, std::int32_t count) no
   if (outline.first > outline.last) {
     return count;
   }
-  const std::uint64_t* const words = lines.words(line);
   Run* const runs = runs_.data();
   std::uint64_t before = 0;  // the last place of the word before, as the lowest bit
   std::int32_t ends = count;
   for (int i = outline.first >> 6; i <= (outline.last + 1) >> 6; ++i) {
-    const std::uint64_t free = words[i];
+    const std::uint64_t free = lines.word(line, i);
     const std::uint64_t shifted = free << 1 | before;
     before = free >> 63;
     // Places where free and blocked change, alternately a run's first and the one after its last.

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "low_level/path/pixel_steps.h"
-#include "mid_level/base/check.h"
 
 namespace lodesman {
 namespace {
@@ -17,13 +16,6 @@ constexpr int kStretch = 64;
 // Searches that end do so after about as many expansions; one that does not is worth asking
 // whether there is a path at all.
 constexpr std::uint32_t kExpansionsBeforeDoubt = 96;
-// Nodes are few and pixels many: a hash keeps what a search touches within a cache.
-constexpr std::size_t kHashes = 8192;
-constexpr std::size_t hash_of(PathPixel pixel) noexcept {
-  const auto column = static_cast<std::uint32_t>(pixel.column);
-  const auto row = static_cast<std::uint32_t>(pixel.row);
-  return (row * 40503U ^ column * 61U) % kHashes;
-}
 constexpr std::int32_t kNoCost = std::numeric_limits<std::int32_t>::max();
 
 constexpr std::uint8_t bit_of(int direction) noexcept {
@@ -55,10 +47,9 @@ JumpPointSearch::JumpPointSearch(const FanShape& fan, SearchLimits limits)
       open_{static_cast<std::uint32_t>(kStraightCost * std::max(fan.columns, fan.rows) +
                                        kDiagonalCost * kStretch),
             static_cast<std::size_t>(fan.columns) * static_cast<std::size_t>(fan.rows)},
-      nodes_(static_cast<std::size_t>(fan.columns) * static_cast<std::size_t>(fan.rows)),
-      hash_heads_(kHashes, kNone),
+      points_{static_cast<std::size_t>(fan.columns) * static_cast<std::size_t>(fan.rows)},
       joined_{fan.rows, fan.columns},
-      walk_{nodes_.size()} {
+      walk_{static_cast<std::size_t>(fan.columns) * static_cast<std::size_t>(fan.rows)} {
   for (int row = 0; row < fan.rows; ++row) {
     for (int column = 0; column + 1 < fan.columns; ++column) {
       const bool both = fan.holds(column, row) && fan.holds(column + 1, row);
@@ -81,7 +72,7 @@ SearchResult JumpPointSearch::search(const PassableGrid& grid, PathPixel start,
   SearchResult result;
   result.reason = settle(goal, result.expansions);
   if (result.reason == PathReason::kFound) {
-    result.path = walk(goal);
+    result.path = walk_.walk(grid, points_, came_from_, {start, goal, best_});
     result.reason = result.path.empty() ? PathReason::kLimit : PathReason::kFound;
     result.cost_10_14 = result.path.empty() ? 0 : best_;
   }
@@ -92,23 +83,24 @@ void JumpPointSearch::begin(const PassableGrid& grid, PathPixel start, PathPixel
   grid_ = &grid;
   start_ = start;
   best_ = same(start, goal) ? 0 : kNoCost;
+  came_from_ = JumpPoints::kNone;
   full_ = false;
   open_.clear();
-  node_count_ = 0;
-  reach(goal, 0, 0xFF);
+  points_.clear();
+  reach(JumpPoints::kNone, goal, 0, 0xFF);
 }
 
-// Takes nodes in order of F until nothing in the open list could lie on a path as cheap as the one
-// that is known.
+// Takes jump points in order of F until nothing in the open list could lie on a path as cheap as
+// the one that is known.
 PathReason JumpPointSearch::settle(PathPixel goal, std::uint32_t& expansions) noexcept {
   std::uint32_t key = static_cast<std::uint32_t>(octile(goal, start_)) / 2;
   Open next;
   while (open_.pop(key, key, next) && static_cast<std::int64_t>(key) * 2 <= best_) {
     if (next.diagonal >= 0) {
-      run(next.node, next.diagonal);
+      run(next.point, next.diagonal);
       continue;
     }
-    if (nodes_.data()[next.node].todo == 0) {
+    if (points_[next.point].todo == 0) {
       continue;  // expanded already, when it was reached more cheaply
     }
     if (expansions >= limits_.max_expansions) {
@@ -118,7 +110,7 @@ PathReason JumpPointSearch::settle(PathPixel goal, std::uint32_t& expansions) no
         !joined_.joined(grid_->rows(), goal.row, goal.column, start_.row, start_.column)) {
       return PathReason::kNoPath;
     }
-    expand(next.node);
+    expand(next.point);
   }
   if (full_) {
     return PathReason::kLimit;
@@ -126,32 +118,33 @@ PathReason JumpPointSearch::settle(PathPixel goal, std::uint32_t& expansions) no
   return best_ == kNoCost ? PathReason::kNoPath : PathReason::kFound;
 }
 
-void JumpPointSearch::expand(std::int32_t node) noexcept {
-  Node& own = nodes_.data()[node];
+void JumpPointSearch::expand(std::int32_t point) noexcept {
+  JumpPoint& own = points_[point];
   const Directions todo = own.todo;
   own.todo = 0;
   own.done |= todo;
   for (unsigned rest = todo; rest != 0; rest &= rest - 1) {
-    run(node, std::countr_zero(rest));
+    run(point, std::countr_zero(rest));
   }
 }
 
-void JumpPointSearch::run(std::int32_t node, int direction) noexcept {
-  const JumpPoint own = nodes_.data()[node].point;
+void JumpPointSearch::run(std::int32_t point, int direction) noexcept {
+  const PathPixel from = points_[point].pixel;
+  const std::int32_t cost = points_[point].cost;
   switch (direction) {
-    case 0: return run_straight<0>(own.pixel, own.cost);
-    case 1: return run_diagonal<1>(node);
-    case 2: return run_straight<2>(own.pixel, own.cost);
-    case 3: return run_diagonal<3>(node);
-    case 4: return run_straight<4>(own.pixel, own.cost);
-    case 5: return run_diagonal<5>(node);
-    case 6: return run_straight<6>(own.pixel, own.cost);
-    default: return run_diagonal<7>(node);
+    case 0: return run_straight<0>(point, from, cost);
+    case 1: return run_diagonal<1>(point);
+    case 2: return run_straight<2>(point, from, cost);
+    case 3: return run_diagonal<3>(point);
+    case 4: return run_straight<4>(point, from, cost);
+    case 5: return run_diagonal<5>(point);
+    case 6: return run_straight<6>(point, from, cost);
+    default: return run_diagonal<7>(point);
   }
 }
 
 template <int kDirection>
-void JumpPointSearch::run_straight(PathPixel from, std::int32_t cost) noexcept {
+void JumpPointSearch::run_straight(std::int32_t point, PathPixel from, std::int32_t cost) noexcept {
   constexpr bool kAlongRow = kDirection == 2 || kDirection == 6;
   constexpr int kWay = kDirection == 2 || kDirection == 4 ? 1 : -1;
   const BitLines& lines = kAlongRow ? grid_->rows() : grid_->columns();
@@ -163,7 +156,7 @@ void JumpPointSearch::run_straight(PathPixel from, std::int32_t cost) noexcept {
   const int start_place = kAlongRow ? start_.column : start_.row;
   if (line == (kAlongRow ? start_.row : start_.column) && kWay * (start_place - place) > 0 &&
       (stop == BitLines::kNone || kWay * (stop - start_place) >= 0)) {
-    best_ = std::min(best_, cost_at(start_place));
+    reach_start(point, cost_at(start_place));
     return;
   }
   if (stop == BitLines::kNone || !lines.is_free(line, stop)) {
@@ -182,7 +175,7 @@ void JumpPointSearch::run_straight(PathPixel from, std::int32_t cost) noexcept {
   directions |= opens(-1) ? bit_of(kBefore) | bit_of(between(kBefore)) : 0U;
   directions |= opens(1) ? bit_of(kAfter) | bit_of(between(kAfter)) : 0U;
   const PathPixel pixel = moved(from, kDirection, std::abs(stop - place));
-  reach(pixel, cost_at(stop), static_cast<Directions>(directions));
+  reach(point, pixel, cost_at(stop), static_cast<Directions>(directions));
 }
 
 // How many steps a diagonal stays in the fan.
@@ -204,95 +197,113 @@ int JumpPointSearch::free_diagonal(PathPixel from) const noexcept {
   constexpr int kDown = step_of(kDirection).row;
   const BitLines& rows = grid_->rows();
   const int count = std::min(kStretch, fan_diagonal(from, kDirection));
+  // Of the row that a step ends in: the pixel that it ends at and the one beside it; and the one
+  // beside the next step.
+  constexpr int kNext = kAcross > 0 ? 2 : 0;
+  constexpr unsigned kHere = kAcross > 0 ? 3U : 6U;
+  const auto around = [&](int steps) {
+    return rows.window(from.row + kDown * steps, from.column + kAcross * steps - 1);
+  };
+  if ((around(0) >> kNext & 1U) == 0) {
+    return 0;
+  }
   const int word = from.column >> 6;
   const int other = (from.column + kAcross * count) >> 6;
   std::uint64_t crowded = only_first<kDown>(
       rows.crowd<kDown>(from.row, word) | rows.crowd<kDown>(from.row, other), count);
   while (crowded != 0) {
-    const int away = nearest<kDown>(crowded);
-    crowded &= ~line_bit<kDown>(away);
-    const int row = from.row + kDown * away;
-    const int column = from.column + kAcross * (away - (kAcross > 0 ? 1 : 0));
-    // The pixel itself and the one beside it, in its row and in the row before.
-    if ((rows.window(row, column) & rows.window(row - kDown, column) & 3U) != 3U) {
-      return away - 1;
+    const int steps = nearest<kDown>(crowded);
+    crowded &= ~line_bit<kDown>(steps);
+    const std::uint64_t free = around(steps);
+    if ((free & 7U) != 7U) {
+      return (free & kHere) != kHere ? steps - 1 : steps;
     }
   }
   return count;
 }
 
 template <int kDirection>
-void JumpPointSearch::run_diagonal(std::int32_t node) noexcept {
+void JumpPointSearch::run_diagonal(std::int32_t point) noexcept {
   constexpr int kAcross = step_of(kDirection).column;
   constexpr int kDown = step_of(kDirection).row;
   constexpr int kSideways = kAcross > 0 ? 2 : 6;
   constexpr int kUpright = kDown > 0 ? 4 : 0;
-  const PathPixel from = nodes_.data()[node].point.pixel;
-  const int before = nodes_.data()[node].point.reach[kDirection / 2];
-  const PathPixel begin = moved(from, kDirection, before);
-  const std::int32_t cost = nodes_.data()[node].point.cost + kDiagonalCost * before;
+  JumpPoint& own = points_[point];
+  const int before = own.reach[kDirection / 2];
+  const PathPixel begin = moved(own.pixel, kDirection, before);
+  const std::int32_t cost = own.cost + kDiagonalCost * before;
   const int count = free_diagonal<kDirection>(begin);
-  nodes_.data()[node].point.reach[kDirection / 2] = static_cast<std::int16_t>(before + count);
+  own.reach[kDirection / 2] = static_cast<std::int16_t>(before + count);
 
-  std::uint64_t rows = grid_->rows().stopping<kDown, kAcross>(begin.row, begin.column >> 6);
+  if (count == 0) {
+    return;
+  }
+  // Beside every pixel but the last all is free, or the diagonal could not go on: straight runs
+  // from there are only of use where they turn at something further off, or come to the start.
+  const BitLines& rows = grid_->rows();
+  const PathPixel last = moved(begin, kDirection, count);
+  std::uint64_t sideways = rows.turning<kDown, kAcross>(begin.row, begin.column >> 6);
+  sideways |= rows.is_free(last.row + kDown, last.column) ? 0 : line_bit<kDown>(count);
   if (const int away = kDown * (start_.row - begin.row); away > 0 && away <= count) {
-    rows |= line_bit<kDown>(away);
+    sideways |= line_bit<kDown>(away);
   }
-  for (rows = only_first<kDown>(rows, count); rows != 0;) {
-    const int away = nearest<kDown>(rows);
-    rows &= ~line_bit<kDown>(away);
-    run_straight<kSideways>(moved(begin, kDirection, away), cost + kDiagonalCost * away);
+  for (sideways = only_first<kDown>(sideways, count); sideways != 0;) {
+    const int away = nearest<kDown>(sideways);
+    sideways &= ~line_bit<kDown>(away);
+    run_straight<kSideways>(point, moved(begin, kDirection, away), cost + kDiagonalCost * away);
   }
-  std::uint64_t columns = grid_->columns().stopping<kAcross, kDown>(begin.column, begin.row >> 6);
+  std::uint64_t upright = grid_->columns().turning<kAcross, kDown>(begin.column, begin.row >> 6);
+  upright |= rows.is_free(last.row, last.column + kAcross) ? 0 : line_bit<kAcross>(count);
   if (const int away = kAcross * (start_.column - begin.column); away > 0 && away <= count) {
-    columns |= line_bit<kAcross>(away);
+    upright |= line_bit<kAcross>(away);
     if (const PathPixel there = moved(begin, kDirection, away); same(there, start_)) {
-      best_ = std::min(best_, cost + kDiagonalCost * away);
+      reach_start(point, cost + kDiagonalCost * away);
     }
   }
-  for (columns = only_first<kAcross>(columns, count); columns != 0;) {
-    const int away = nearest<kAcross>(columns);
-    columns &= ~line_bit<kAcross>(away);
-    run_straight<kUpright>(moved(begin, kDirection, away), cost + kDiagonalCost * away);
+  for (upright = only_first<kAcross>(upright, count); upright != 0;) {
+    const int away = nearest<kAcross>(upright);
+    upright &= ~line_bit<kAcross>(away);
+    run_straight<kUpright>(point, moved(begin, kDirection, away), cost + kDiagonalCost * away);
   }
   if (count == kStretch) {
-    push(moved(begin, kDirection, count), cost + kDiagonalCost * count, {node, kDirection});
+    push(moved(begin, kDirection, count), cost + kDiagonalCost * count, {point, kDirection});
   }
 }
 
-// The node of a pixel, which is made where there is none: then it has nothing to do yet.
-std::int32_t JumpPointSearch::node_at(PathPixel pixel) noexcept {
-  const std::size_t hash = hash_of(pixel);
-  std::int32_t& head = hash_heads_.data()[hash];
-  Node* const nodes = nodes_.data();
-  // What other searches left behind in the heads is told by its not fitting.
-  const bool is_own = head >= 0 && head < node_count_ && hash_of(nodes[head].point.pixel) == hash;
-  const std::int32_t first = is_own ? head : kNone;
-  for (std::int32_t i = first; i != kNone; i = nodes[i].next) {
-    if (same(nodes[i].point.pixel, pixel)) {
-      return i;
-    }
+void JumpPointSearch::reach_start(std::int32_t from, std::int32_t cost) noexcept {
+  if (cost > best_) {
+    return;
   }
-  head = node_count_++;
-  nodes[head] = {{pixel, kNoCost, {}}, 0, 0, first};
-  return head;
+  came_from_ = cost < best_ ? JumpPoints::kNone : came_from_;
+  best_ = cost;
+  full_ |= !points_.arrive(from, came_from_);
 }
 
-void JumpPointSearch::reach(PathPixel pixel, std::int32_t cost, Directions directions) noexcept {
+void JumpPointSearch::reach(std::int32_t from, PathPixel pixel, std::int32_t cost,
+                            Directions directions) noexcept {
   if (cost + octile(pixel, start_) > best_) {
     return;
   }
-  const std::int32_t place = node_at(pixel);
-  Node& node = nodes_.data()[place];
-  if (cost > node.point.cost ||
-      (cost == node.point.cost && (directions & ~(node.todo | node.done)) == 0)) {
+  const std::int32_t place = points_.at(pixel);
+  JumpPoint& point = points_[place];
+  if (cost > point.cost) {
     return;
   }
-  if (cost < node.point.cost) {
-    node = {{pixel, cost, {}}, 0, 0, node.next};
+  if (cost < point.cost) {
+    const std::int32_t next = point.next;
+    point = {};
+    point.pixel = pixel;
+    point.cost = cost;
+    point.next = next;
   }
-  node.todo = static_cast<Directions>(node.todo | (directions & ~node.done));
-  push(pixel, cost, {place, -1});
+  if (from != JumpPoints::kNone) {
+    full_ |= !points_.arrive(from, point.came_from);
+  }
+  const unsigned fresh = directions & ~(point.todo | point.done);
+  if (fresh != 0) {
+    point.todo = static_cast<Directions>(point.todo | fresh);
+    push(pixel, cost, {place, -1});
+  }
 }
 
 void JumpPointSearch::push(PathPixel at, std::int32_t cost, Open open) noexcept {
@@ -300,17 +311,6 @@ void JumpPointSearch::push(PathPixel at, std::int32_t cost, Open open) noexcept 
   if (f <= best_ && !open_.push(static_cast<std::uint32_t>(f) / 2, open)) {
     full_ = true;
   }
-}
-
-std::span<const PathPixel> JumpPointSearch::walk(PathPixel goal) noexcept {
-  walk_.begin(start_, goal, best_);
-  for (std::int32_t i = 0; i < node_count_; ++i) {
-    const JumpPoint& point = nodes_.data()[i].point;
-    if (point.cost + octile(start_, point.pixel) <= best_) {
-      walk_.add(point);
-    }
-  }
-  return walk_.walk(*grid_);
 }
 
 }  // namespace lodesman

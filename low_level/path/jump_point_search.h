@@ -4,14 +4,13 @@
 // when made and never after.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "low_level/path/bucket_queue.h"
 #include "low_level/path/grid.h"
 #include "low_level/path/joined.h"
+#include "low_level/path/jump_points.h"
 #include "low_level/path/path_walk.h"
 #include "low_level/path/search_result.h"
 
@@ -33,49 +32,36 @@ class JumpPointSearch {
   explicit JumpPointSearch(const FanShape& fan = {}, SearchLimits limits = {});
 
   // Start and goal must be passable. Ends as kFound, kNoPath or kLimit: more expansions than
-  // allowed, or a path of more than kMaxPathPixels. The path is valid until the next search.
+  // allowed, a path of more than kMaxPathPixels, or no room for what was reached. The path is valid
+  // until the next search.
   [[nodiscard]] SearchResult search(const PassableGrid& grid, PathPixel start,
                                     PathPixel goal) noexcept;
 
-  // Of the last search, for pictures: the jump points that it reached, `i` from 0.
-  [[nodiscard]] std::size_t jump_point_count() const noexcept {
-    return static_cast<std::size_t>(node_count_);
-  }
-  [[nodiscard]] const JumpPoint& jump_point(std::size_t i) const noexcept {
-    return nodes_[i].point;
-  }
+  // Of the last search, for pictures.
+  [[nodiscard]] const JumpPoints& jump_points() const noexcept { return points_; }
 
  private:
-  static constexpr std::int32_t kNone = -1;
   using Directions = std::uint8_t;  // a bit a direction of kSteps
 
-  struct Node {
-    JumpPoint point;
-    Directions todo = 0;  // to run out along when it is taken from the open list
-    Directions done = 0;
-    std::int32_t next = kNone;  // with the same hash
-  };
-  // What the open list holds: a node to expand, or one of its diagonals to run further along.
+  // What the open list holds: a jump point to expand, or one of its diagonals to run further along.
   struct Open {
-    std::int32_t node = 0;
-    std::int32_t diagonal = -1;  // the direction; none: expand the node
+    std::int32_t point = 0;
+    std::int32_t diagonal = -1;  // the direction; none: expand the point
   };
   void begin(const PassableGrid& grid, PathPixel start, PathPixel goal) noexcept;
   [[nodiscard]] PathReason settle(PathPixel goal, std::uint32_t& expansions) noexcept;
-  void expand(std::int32_t node) noexcept;
-  void run(std::int32_t node, int direction) noexcept;
+  void expand(std::int32_t point) noexcept;
+  void run(std::int32_t point, int direction) noexcept;
   template <int kDirection>
-  void run_straight(PathPixel from, std::int32_t cost) noexcept;
+  void run_straight(std::int32_t point, PathPixel from, std::int32_t cost) noexcept;
   template <int kDirection>
-  void run_diagonal(std::int32_t node) noexcept;
+  void run_diagonal(std::int32_t point) noexcept;
   template <int kDirection>
   [[nodiscard]] int free_diagonal(PathPixel from) const noexcept;
   [[nodiscard]] int fan_diagonal(PathPixel from, int direction) const noexcept;
-  [[nodiscard]] std::int32_t node_at(PathPixel pixel) noexcept;
-  void reach(PathPixel pixel, std::int32_t cost, Directions directions) noexcept;
+  void reach_start(std::int32_t from, std::int32_t cost) noexcept;
+  void reach(std::int32_t from, PathPixel pixel, std::int32_t cost, Directions directions) noexcept;
   void push(PathPixel at, std::int32_t cost, Open open) noexcept;
-
-  [[nodiscard]] std::span<const PathPixel> walk(PathPixel goal) noexcept;
 
   FanShape fan_;
   SearchLimits limits_;
@@ -86,12 +72,11 @@ class JumpPointSearch {
 
   const PassableGrid* grid_ = nullptr;  // during a search
   PathPixel start_;
-  std::int32_t best_ = 0;  // cost of the cheapest path so far
-  bool full_ = false;      // the open list had no room
+  std::int32_t best_ = 0;                       // cost of the cheapest path so far
+  std::int32_t came_from_ = JumpPoints::kNone;  // the first of the start's arrivals at that cost
+  bool full_ = false;                           // something had no room
   BucketQueue<Open> open_;
-  std::vector<Node> nodes_;
-  std::int32_t node_count_ = 0;
-  std::vector<std::int32_t> hash_heads_;  // of chains of nodes; of this search if the node fits
+  JumpPoints points_;
   Joined joined_;
   PathWalk walk_;
 };

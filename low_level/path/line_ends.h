@@ -3,25 +3,30 @@
 // Pure functions; any thread.
 #pragma once
 
-#include <cmath>
-
 #include "low_level/path/bit_lines.h"
 
 namespace lodesman {
 
-// The next whole number up, within [low, high]. What is not a number gives the widest span: a
-// first place falls to `low`, a last one to `high`.
+// The next whole number up, of one that an int can hold: std::ceil is a call where the machine is
+// not known to round by itself.
+[[nodiscard]] inline int whole_up(double value) noexcept {
+  const int below = static_cast<int>(value);
+  return below + (value > below ? 1 : 0);
+}
+
+// The same within [low, high]. What is not a number gives the widest span: a first place falls to
+// `low`, a last one to `high`.
 [[nodiscard]] inline int first_from(double value, int low, int high) noexcept {
   if (!(value > low)) {
     return low;
   }
-  return value >= high ? high : static_cast<int>(std::ceil(value));
+  return value >= high ? high : whole_up(value);
 }
 [[nodiscard]] inline int last_from(double value, int low, int high) noexcept {
   if (!(value < high)) {
     return high;
   }
-  return value <= low ? low : static_cast<int>(std::ceil(value));
+  return value <= low ? low : whole_up(value);
 }
 
 // The lines that a shape between two heights can touch, and one more to each side for rounding.

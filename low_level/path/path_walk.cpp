@@ -2,39 +2,41 @@
 #include "low_level/path/path_walk.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdlib>
 #include <utility>
 
 #include "low_level/path/pixel_steps.h"
 #include "low_level/path/walk_leg.h"
+#include "mid_level/base/check.h"
 
 namespace lodesman {
 
-// The steps that the walk may choose from, and how often each may be taken before the nodes in
-// sight must be looked at anew.
+// The steps that the walk may choose from, and how often each may be taken before guides must be
+// looked for anew.
 class PathWalk::Choices {
  public:
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): arrays are written as they are filled
-  Choices(const TieBreak& rule, PathPixel at) noexcept : rule_{rule}, off_{rule.off(at)} {}
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): choices are written as they are added
+  Choices(const TieBreak& rule, PathPixel at) noexcept : rule_{rule}, off_{rule.off(at)} {
+    times_.fill(kMaxPathPixels);
+  }
 
   void add(const Way& way) noexcept {
-    if (way.straights > 0) {
-      allow(way.straight, way.straights);
-    }
-    if (way.diagonals > 0) {
-      allow(way.diagonal, way.diagonals);
-    }
+    const unsigned leads = way.directions();
+    directions_ |= leads;
+    common_ &= leads;
+    limit(way.straight, way.straights);
+    limit(way.diagonal, way.diagonals);
   }
-  // A step that does not lead to all of the nodes in sight loses one of them.
-  void close(std::size_t nodes) noexcept {
+  // A step that does not lead to all of the guides loses one of them.
+  void close() noexcept {
     for (unsigned rest = directions_; rest != 0; rest &= rest - 1) {
       const int direction = std::countr_zero(rest);
       Choice& choice = choices_.data()[count_++];
-      const auto d = static_cast<std::size_t>(direction);
       choice.direction = direction;
       choice.change = rule_.change_off(step_of(direction).column, step_of(direction).row);
-      choice.times = leading_.data()[d] == nodes ? times_.data()[d] : 1;
+      choice.times = (common_ >> direction & 1U) != 0 ? times_.data()[direction] : 1;
     }
   }
   [[nodiscard]] bool spent() const noexcept { return spent_; }
@@ -82,12 +84,9 @@ class PathWalk::Choices {
     int key;
   };
 
-  void allow(int direction, int times) noexcept {
-    const auto d = static_cast<std::size_t>(direction);
-    const bool is_new = (directions_ >> direction & 1U) == 0;
-    directions_ |= 1U << direction;
-    times_.data()[d] = is_new ? times : std::min(times, times_.data()[d]);
-    leading_.data()[d] = is_new ? 1 : leading_.data()[d] + 1;
+  void limit(int direction, int times) noexcept {
+    int& most = times_.data()[direction];
+    most = std::min(most, times > 0 ? times : static_cast<int>(kMaxPathPixels));
   }
   void find_best() noexcept {
     best_ = -1;
@@ -107,9 +106,9 @@ class PathWalk::Choices {
   const TieBreak& rule_;
   int off_;
   PathPixel at_;
-  unsigned directions_ = 0;
+  unsigned directions_ = 0;  // that lead to any guide
+  unsigned common_ = ~0U;    // that lead to all of them
   std::array<int, kDirections> times_;
-  std::array<std::size_t, kDirections> leading_;
   std::array<Choice, kDirections> choices_;
   int count_ = 0;
   unsigned refused_ = 0;
@@ -118,26 +117,22 @@ class PathWalk::Choices {
 };
 
 PathWalk::PathWalk(std::size_t capacity)
-    : in_sight_(capacity), waiting_(capacity), path_(kMaxPathPixels) {}
+    : guides_(capacity), before_(capacity), path_(kMaxPathPixels) {}
 
-void PathWalk::begin(PathPixel start, PathPixel goal, std::int32_t cost) noexcept {
-  start_ = start;
-  goal_ = goal;
-  at_ = start;
-  left_ = cost;
-  in_sight_count_ = 0;
-  waiting_count_ = 0;
-}
-
-void PathWalk::add(const JumpPoint& point) noexcept { waiting_.data()[waiting_count_++] = point; }
-
-std::span<const PathPixel> PathWalk::walk(const PassableGrid& grid) noexcept {
+std::span<const PathPixel> PathWalk::walk(const PassableGrid& grid, JumpPoints& points,
+                                          std::int32_t arrival, const WalkTask& task) noexcept {
   grid_ = &grid;
-  const TieBreak rule{start_, goal_};
+  points_ = &points;
+  count_look();
+  at_ = task.start;
+  left_ = task.cost;
+  guide_count_ = 0;
+  look_back(arrival);
+  look_along();
+  const TieBreak rule{task.start, task.goal};
   path_.data()[0] = at_;
   path_count_ = 1;
-  arrive(start_, left_);
-  while (!same(at_, goal_)) {
+  while (!same(at_, task.goal)) {
     if (path_count_ == path_.size()) {
       return {};
     }
@@ -154,7 +149,7 @@ bool PathWalk::may_step(PathPixel from, int direction) const noexcept {
           (rows.is_free(to.row, from.column) && rows.is_free(from.row, to.column)));
 }
 
-// Whether a run out from the node, diagonally and then straight, came past the pixel.
+// Whether a run out from the jump point, diagonally and then straight, came past the pixel.
 bool PathWalk::leads_to(PathPixel from, const JumpPoint& point) const noexcept {
   const int columns = point.pixel.column - from.column;
   const int rows = point.pixel.row - from.row;
@@ -173,104 +168,114 @@ bool PathWalk::leads_to(PathPixel from, const JumpPoint& point) const noexcept {
   return grid_->columns().blocked_between(from.column, from.row, turn) == BitLines::kNone;
 }
 
-// Whether a step from a pixel may be taken and leads to a jump point in sight at the cost that is
-// left before it.
+// Whether a step from a pixel may be taken and leads to one of the guides at the cost that is left
+// before it.
 bool PathWalk::is_cheapest(PathPixel from, int direction, std::int32_t left) const noexcept {
   if (!may_step(from, direction)) {
     return false;
   }
   const PathPixel end = moved(from, direction, 1);
-  const JumpPoint* const sights = in_sight_.data();
-  for (std::size_t i = 0; i < in_sight_count_; ++i) {
-    if (octile(end, sights[i].pixel) + sights[i].cost == left - cost_of(direction) &&
-        leads_to(end, sights[i])) {
+  for (std::size_t i = 0; i < guide_count_; ++i) {
+    if (octile(end, guide(i).pixel) + guide(i).cost == left - cost_of(direction) &&
+        leads_to(end, guide(i))) {
       return true;
     }
   }
   return false;
 }
 
-// Sorts the jump points anew: those whose cost and way fit what is left are in sight; those that
-// would be too cheap wait, for something lies between; those too dear are past, for good: a step
-// on a cheapest path never brings one nearer by more than the step costs.
+// Moves on to a pixel, and finds its guides.
 void PathWalk::arrive(PathPixel pixel, std::int32_t left) noexcept {
   at_ = pixel;
   left_ = left;
-  JumpPoint* const sights = in_sight_.data();
-  JumpPoint* const waiting = waiting_.data();
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < in_sight_count_; ++i) {
-    if (octile(at_, sights[i].pixel) + sights[i].cost == left_ && !same(at_, sights[i].pixel)) {
-      sights[kept++] = sights[i];
+  count_look();
+  guides_.swap(before_);
+  const std::size_t count = std::exchange(guide_count_, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int32_t point = before_.data()[i];
+    if (same(at_, (*points_)[point].pixel)) {
+      look_back((*points_)[point].came_from);
+    } else {
+      consider(point);
     }
   }
-  in_sight_count_ = kept;
-  kept = 0;
-  for (std::size_t i = 0; i < waiting_count_; ++i) {
-    const std::int32_t cost = octile(at_, waiting[i].pixel) + waiting[i].cost;
-    if (cost < left_) {
-      waiting[kept++] = waiting[i];
-    } else if (cost == left_ && !same(at_, waiting[i].pixel)) {
-      sights[in_sight_count_++] = waiting[i];
-    }
-  }
-  waiting_count_ = kept;
+  look_along();
 }
 
-// How many steps of the other kind must come before any jump point in sight allows one that none
-// allows now.
+// Considers those from which the search came to the guides that lie in a straight line, and to
+// those that are found so.
+void PathWalk::look_along() noexcept {
+  for (std::size_t i = 0; i < guide_count_; ++i) {
+    if (lodesman::is_line(at_, guide(i).pixel)) {
+      look_back(guide(i).came_from);
+    }
+  }
+}
+
+// Considers those from which the search came to a jump point, or to the start.
+void PathWalk::look_back(std::int32_t arrival) noexcept {
+  while (arrival != JumpPoints::kNone) {
+    consider(points_->arrival(arrival).from);
+    arrival = points_->arrival(arrival).next;
+  }
+}
+
+// Takes a jump point for a guide if it is one here.
+void PathWalk::consider(std::int32_t point) noexcept {
+  JumpPoint& own = (*points_)[point];
+  if (std::exchange(own.looked, look_) != look_ && octile(at_, own.pixel) + own.cost == left_ &&
+      leads_to(at_, own)) {
+    guides_.data()[guide_count_++] = point;
+  }
+}
+
+// How many steps of the other kind must come before any guide allows one that none allows now.
 int PathWalk::steps_before(bool straight, const WalkLeg& leg) const noexcept {
-  if (in_sight_count_ == 1 && leg.is_line()) {
+  if (guide_count_ == 1 && leg.is_line()) {
     return kMaxPathPixels;
   }
-  if (!straight) {
-    return leg.straights_before_diagonal();  // what blocks the line beside blocks it for all
-  }
-  // A diagonal that does not reach so far yet allows nothing.
   int steps = kMaxPathPixels;
-  const JumpPoint* const sights = in_sight_.data();
-  for (std::size_t i = 0; i < in_sight_count_; ++i) {
-    const Way way{leg.at(), sights[i].pixel};
-    if (way.straights > 0) {
-      const int reach = sights[i].reach[static_cast<std::size_t>(opposite(way.diagonal) / 2)];
+  for (std::size_t i = 0; i < guide_count_; ++i) {
+    const Way way{leg.at(), guide(i).pixel};
+    if (!straight) {
+      steps = std::min(steps, leg.straights_before_diagonal(way));
+    } else if (way.straights > 0) {
+      // A diagonal that does not reach so far yet allows nothing.
+      const int reach = guide(i).reach[static_cast<std::size_t>(opposite(way.diagonal) / 2)];
       steps = std::min(steps, std::max(way.diagonals - reach, 1));
     }
   }
   return steps;
 }
 
-// A jump point in sight that the pixel leads to. There is one: the last on the way by which the
-// search came past the pixel. It is put first, where the next look finds it at once.
-const JumpPoint& PathWalk::find_guide() noexcept {
-  JumpPoint* sight = in_sight_.data();
-  while (!leads_to(at_, *sight)) {
-    ++sight;
-  }
-  std::swap(in_sight_.front(), *sight);
-  return in_sight_.front();
-}
-
-// Takes steps as long as nothing can come into sight or get out of it.
+// Takes steps as long as nothing can become a guide.
 void PathWalk::stride(const TieBreak& rule) noexcept {
-  const JumpPoint& guide = find_guide();
-  Choices choices{rule, at_};
-  for (std::size_t i = 0; i < in_sight_count_; ++i) {
-    choices.add(Way{at_, in_sight_.data()[i].pixel});
+  LODESMAN_CHECK(guide_count_ > 0);  // the search has passed every pixel of every cheapest path
+  const Way way{at_, guide(0).pixel};
+  const auto times_of = [](int steps) {
+    return steps > 0 ? steps : static_cast<int>(kMaxPathPixels);
+  };
+  if (guide_count_ == 1) {
+    follow(rule, {times_of(way.diagonals), times_of(way.straights)});
+    return;
   }
-  choices.close(in_sight_count_);
-  if (choices.are_of(Way{at_, guide.pixel})) {
-    follow(guide, rule, choices);
+  Choices choices{rule, at_};
+  for (std::size_t i = 0; i < guide_count_; ++i) {
+    choices.add(Way{at_, guide(i).pixel});
+  }
+  choices.close();
+  if (choices.are_of(way)) {
+    follow(rule, {choices.times(way.diagonal), choices.times(way.straight)});
   } else {
-    choose(guide, choices);
+    choose(choices);
   }
 }
 
-// Where no directions lead anywhere but the guide's two.
-void PathWalk::follow(const JumpPoint& guide, const TieBreak& rule,
-                      const Choices& choices) noexcept {
+// Where no directions lead anywhere but the first guide's two, each of which may be taken so often.
+void PathWalk::follow(const TieBreak& rule, WalkLeg::Times times) noexcept {
+  const JumpPoint& guide = this->guide(0);
   WalkLeg leg{*grid_, rule, at_, guide.pixel};
-  WalkLeg::Times times{choices.times(leg.direction(false)), choices.times(leg.direction(true))};
-  const bool is_alone = in_sight_count_ == 1;
+  const bool is_alone = guide_count_ == 1;
   PathPixel* path = path_.data() + path_count_;
   PathPixel* const end = path_.data() + path_.size();
   std::int32_t left = 0;
@@ -280,8 +285,8 @@ void PathWalk::follow(const JumpPoint& guide, const TieBreak& rule,
     if (times[0] == 0 || times[1] == 0 || path == end) {
       break;
     }
-    // The guide does not allow what the rule prefers. Another jump point in sight may; the guide
-    // then guides no further.
+    // The guide does not allow what the rule prefers. Another guide may; this one then guides no
+    // further.
     bool straight = leg.prefers_straight();
     int steps = 1;
     guided = is_alone || !is_cheapest(leg.at(), leg.direction(straight), left);
@@ -302,8 +307,8 @@ void PathWalk::follow(const JumpPoint& guide, const TieBreak& rule,
 
 // Where more directions lead somewhere. A step that follows the guide's way is on a cheapest path;
 // any other asks the map.
-void PathWalk::choose(const JumpPoint& guide, Choices& choices) noexcept {
-  Way way{at_, guide.pixel};
+void PathWalk::choose(Choices& choices) noexcept {
+  Way way{at_, guide(0).pixel};
   PathPixel at = at_;
   std::int32_t left = left_;
   for (bool guided = true; guided && path_count_ < path_.size() && !choices.spent();) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks a cheapest path by the rule of tie_break.h, knowing only the jump points of a search and
-// their costs. Owned by one thread; it allocates when made and never after.
+// Walks a cheapest path by the rule of tie_break.h, knowing only the jump points of a search,
+// their costs and from which of them it came to each. Owned by one thread; it allocates when made
+// and never after.
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "low_level/path/grid.h"
+#include "low_level/path/jump_points.h"
 #include "low_level/path/tie_break.h"
 #include "mid_level/messages/path.h"
 
@@ -17,57 +19,60 @@ namespace lodesman {
 
 class WalkLeg;
 
-// A pixel from which a search ran out, or the goal.
-struct JumpPoint {
-  PathPixel pixel;
-  std::int32_t cost = 0;  // to the goal
-  // How far each of its diagonals has been found free, by direction / 2.
-  std::array<std::int16_t, 4> reach{};
+// From where to where, and what the cheapest path costs.
+struct WalkTask {
+  PathPixel start;
+  PathPixel goal;
+  std::int32_t cost = 0;
 };
 
 // A step lies on a cheapest path if from its end the goal costs just the step less. What it costs
 // from there is not stored anywhere; but the search came past every pixel of every cheapest path,
 // by a diagonal and then a straight run out from some jump point. So a step is good if its end
 // looks along such a run, straight first and then diagonally, to a jump point whose own cost makes
-// up the rest.
+// up the rest: a guide.
 //
-// Jump points that fit so far by their cost and place are "in sight", whether or not the run is
-// free; those that would be too cheap wait, for something lies between. A waiting one can come into
-// sight only where one that was in sight is reached, or comes to lie in a straight line: only there
-// can a cheapest path begin to turn.
+// A jump point can become a guide only where one that is a guide is reached, or comes to lie in a
+// straight line: only there can a cheapest path begin to turn. And then it is one from which the
+// search came to that guide, or to another one in the same line.
 class PathWalk {
  public:
-  // With room for so many jump points.
+  // With room for so many guides.
   explicit PathWalk(std::size_t capacity);
 
-  void begin(PathPixel start, PathPixel goal, std::int32_t cost) noexcept;
-  // Every jump point through which a path might cost no more.
-  void add(const JumpPoint& point) noexcept;
-  // The path, as long as it lasts; empty where it has more than kMaxPathPixels.
-  [[nodiscard]] std::span<const PathPixel> walk(const PassableGrid& grid) noexcept;
+  // The path, as long as the next walk lasts; empty where it has more than kMaxPathPixels.
+  // `arrival` is the first of the start's.
+  [[nodiscard]] std::span<const PathPixel> walk(const PassableGrid& grid, JumpPoints& points,
+                                                std::int32_t arrival,
+                                                const WalkTask& task) noexcept;
 
  private:
   class Choices;
 
   void arrive(PathPixel pixel, std::int32_t left) noexcept;
+  void count_look() noexcept { look_ += look_ + 1 == 0 ? 2 : 1; }
+  void look_along() noexcept;
+  void look_back(std::int32_t arrival) noexcept;
+  void consider(std::int32_t point) noexcept;
   void stride(const TieBreak& rule) noexcept;
-  void follow(const JumpPoint& guide, const TieBreak& rule, const Choices& choices) noexcept;
-  void choose(const JumpPoint& guide, Choices& choices) noexcept;
-  [[nodiscard]] const JumpPoint& find_guide() noexcept;
+  void follow(const TieBreak& rule, std::array<int, 2> times) noexcept;
+  void choose(Choices& choices) noexcept;
   [[nodiscard]] int steps_before(bool straight, const WalkLeg& leg) const noexcept;
   [[nodiscard]] bool leads_to(PathPixel from, const JumpPoint& point) const noexcept;
   [[nodiscard]] bool may_step(PathPixel from, int direction) const noexcept;
   [[nodiscard]] bool is_cheapest(PathPixel from, int direction, std::int32_t left) const noexcept;
+  [[nodiscard]] const JumpPoint& guide(std::size_t i) const noexcept {
+    return (*points_)[guides_.data()[i]];
+  }
 
   const PassableGrid* grid_ = nullptr;  // during a walk
-  PathPixel start_;
-  PathPixel goal_;
+  JumpPoints* points_ = nullptr;
+  std::uint32_t look_ = 0;  // counts the pixels arrived at; 0 is none
   PathPixel at_;
-  std::int32_t left_ = 0;  // to pay from here
-  std::vector<JumpPoint> in_sight_;
-  std::vector<JumpPoint> waiting_;
-  std::size_t in_sight_count_ = 0;
-  std::size_t waiting_count_ = 0;
+  std::int32_t left_ = 0;             // to pay from here
+  std::vector<std::int32_t> guides_;  // of here
+  std::size_t guide_count_ = 0;
+  std::vector<std::int32_t> before_;  // of where the last stride began
   std::vector<PathPixel> path_;
   std::size_t path_count_ = 0;
 };

@@ -58,8 +58,15 @@ struct Way {
     const int rows = to.row - from.row;
     diagonals = std::min(std::abs(columns), std::abs(rows));
     straights = std::max(std::abs(columns), std::abs(rows)) - diagonals;
-    diagonal = columns > 0 ? (rows < 0 ? 1 : 3) : (rows > 0 ? 5 : 7);
-    straight = std::abs(columns) > std::abs(rows) ? (columns > 0 ? 2 : 6) : (rows > 0 ? 4 : 0);
+    diagonal =
+        columns > 0 ? 3 - 2 * static_cast<int>(rows < 0) : 7 - 2 * static_cast<int>(rows > 0);
+    straight = std::abs(columns) > std::abs(rows) ? 6 - 4 * static_cast<int>(columns > 0)
+                                                  : 4 * static_cast<int>(rows > 0);
+  }
+  // A bit a direction that is of use.
+  [[nodiscard]] unsigned directions() const noexcept {
+    return static_cast<unsigned>(straights > 0) << straight | static_cast<unsigned>(diagonals > 0)
+                                                                  << diagonal;
   }
   void take(int direction) noexcept {
     straights -= direction == straight ? 1 : 0;

@@ -117,8 +117,9 @@ cv::Mat picture_of_jump_points(const PassableGrid& grid, PathPixel start, PathPi
   JumpPointSearch search{grid.fan()};
   const SearchResult result = search.search(grid, start, goal);
   cv::Mat picture = view_of(grid);
-  for (std::size_t i = 0; i < search.jump_point_count(); ++i) {
-    const JumpPoint& point = search.jump_point(i);
+  const JumpPoints& points = search.jump_points();
+  for (std::int32_t i = 0; i < points.count(); ++i) {
+    const JumpPoint& point = points[i];
     for (std::size_t diagonal = 0; diagonal < point.reach.size(); ++diagonal) {
       const int direction = 2 * static_cast<int>(diagonal) + 1;
       cv::line(picture, at(point.pixel), at(moved(point.pixel, direction, point.reach[diagonal])),
@@ -126,10 +127,10 @@ cv::Mat picture_of_jump_points(const PassableGrid& grid, PathPixel start, PathPi
     }
   }
   draw_path(picture, result.path);
-  for (std::size_t i = 0; i < search.jump_point_count(); ++i) {
-    cv::circle(picture, at(search.jump_point(i).pixel), 4, kJumpPoint, cv::FILLED, cv::LINE_AA);
+  for (std::int32_t i = 0; i < points.count(); ++i) {
+    cv::circle(picture, at(points[i].pixel), 4, kJumpPoint, cv::FILLED, cv::LINE_AA);
   }
-  draw_legend(picture, {{kJumpPoint, std::to_string(search.jump_point_count()) + " jump points, " +
+  draw_legend(picture, {{kJumpPoint, std::to_string(points.count()) + " jump points, " +
                                          std::to_string(result.expansions) + " expansions"},
                         {kDiagonal, "diagonal runs"},
                         {kObstacle, "protection zones"},

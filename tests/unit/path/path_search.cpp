@@ -212,5 +212,25 @@ TEST_CASE("search: what was searched before changes nothing", "[low_level][path]
   REQUIRE(same(first.path, later.path));
 }
 
+TEST_CASE("search: guides in a straight line lead to the very edge of the view",
+          "[low_level][path]") {
+  PassableGrid grid;
+  for (const LineSpan rows : {LineSpan{200, 300}, LineSpan{400, 450}}) {
+    for (int row = rows.first; row <= rows.last; ++row) {
+      for (int column = 420; column < 440; ++column) {
+        grid.block(pixel(column, row));
+      }
+    }
+  }
+  const Window view;
+  for (const int column : {430, 433, 440, 445}) {
+    const PathPixel goal = pixel(column, 0);
+    PathSearch search;
+    const SearchResult result = search.search(grid, kApex, goal);
+    REQUIRE(result.reason == PathReason::kFound);
+    REQUIRE(same(result.path, path_by_rule(grid, view, dijkstra(grid, view, goal), kApex, goal)));
+  }
+}
+
 }  // namespace
 }  // namespace lodesman::testing

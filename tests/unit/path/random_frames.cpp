@@ -40,17 +40,20 @@ void draw(const RandomFrame& frame, std::mt19937& random, PassableGrid& grid) {
   grid.block(wall);
 }
 
-TEST_CASE("search: on 2000 random frames it agrees with Dijkstra, and its path with the rule",
-          "[low_level][path]") {
-  constexpr unsigned kSeed = 866500;
-  std::cout << "seed " << kSeed << '\n';
-  FrameMaker frames{kSeed, kSmallFan};
-  std::mt19937 random{kSeed};
-  PassableGrid grid{kSmallFan};
-  PathSearch search{Geometry::k4, {}, kSmallFan};
+struct Tally {
   int found = 0;
   int none = 0;
-  for (int i = 0; i < 2000; ++i) {
+};
+
+// Asks for a path in so many frames of all kinds, and has Dijkstra and the rule judge it.
+Tally judge(unsigned seed, int obstacles_times, int count) {
+  std::cout << "seed " << seed << '\n';
+  FrameMaker frames{seed, kSmallFan, obstacles_times};
+  std::mt19937 random{seed};
+  PassableGrid grid{kSmallFan};
+  PathSearch search{Geometry::k4, {}, kSmallFan};
+  Tally tally;
+  for (int i = 0; i < count; ++i) {
     const RandomFrame frame = frames.make(static_cast<FrameKind>(i % 8));
     draw(frame, random, grid);
     CAPTURE(i, kFrameKindNames[static_cast<std::size_t>(i % 8)]);
@@ -63,17 +66,28 @@ TEST_CASE("search: on 2000 random frames it agrees with Dijkstra, and its path w
     const std::vector<int> costs = dijkstra(grid, kSmallView, frame.goal);
     if (costs[kSmallView.index(frame.start)] == kUnreached) {
       REQUIRE(result.reason == PathReason::kNoPath);
-      ++none;
+      ++tally.none;
       continue;
     }
     REQUIRE(result.reason == PathReason::kFound);
     REQUIRE(result.cost_10_14 == costs[kSmallView.index(frame.start)]);
     require_walkable(grid, result.path, frame.start, frame.goal, result.cost_10_14);
     REQUIRE(same(result.path, path_by_rule(grid, kSmallView, costs, frame.start, frame.goal)));
-    ++found;
+    ++tally.found;
   }
-  REQUIRE(found > 1300);
-  REQUIRE(none > 200);
+  return tally;
+}
+
+TEST_CASE("search: on 2000 random frames it agrees with Dijkstra, and its path with the rule",
+          "[low_level][path]") {
+  const Tally tally = judge(866500, 1, 2000);
+  REQUIRE(tally.found > 1300);
+  REQUIRE(tally.none > 200);
+}
+
+TEST_CASE("search: and on 1000 with ten times as many obstacles", "[low_level][path]") {
+  const Tally tally = judge(866501, 10, 1000);
+  REQUIRE(tally.found > 600);
 }
 
 TEST_CASE("search: between random pixels of a frame it agrees with Dijkstra too",

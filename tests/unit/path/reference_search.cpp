@@ -172,8 +172,6 @@ PathPixel pixel(int column, int row) {
   return {static_cast<std::int16_t>(column), static_cast<std::int16_t>(row)};
 }
 
-bool same(PathPixel l, PathPixel r) { return l.column == r.column && l.row == r.row; }
-
 bool same(std::span<const PathPixel> l, std::span<const PathPixel> r) {
   return std::equal(l.begin(), l.end(), r.begin(), r.end(),
                     [](PathPixel a, PathPixel b) { return same(a, b); });

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "low_level/path/grid.h"
+#include "low_level/path/pixel_steps.h"
 #include "mid_level/messages/path.h"
 
 namespace lodesman::testing {
@@ -49,7 +50,7 @@ void require_walkable(const PassableGrid& grid, std::span<const PathPixel> path,
                       PathPixel goal, std::int32_t cost);
 
 [[nodiscard]] PathPixel pixel(int column, int row);
-[[nodiscard]] bool same(PathPixel l, PathPixel r);
+using lodesman::same;
 [[nodiscard]] bool same(std::span<const PathPixel> l, std::span<const PathPixel> r);
 
 }  // namespace lodesman::testing
