@@ -24,7 +24,7 @@ struct JumpPoint {
   std::uint8_t todo = 0;        // directions to run out along: a bit a direction of kSteps
   std::uint8_t done = 0;
   std::int32_t next = -1;    // with the same hash
-  std::uint32_t looked = 0;  // when the walk last looked from it
+  std::uint32_t looked = 0;  // when the walk last considered it; 0 is never
 };
 
 class JumpPoints {

@@ -123,7 +123,7 @@ std::span<const PathPixel> PathWalk::walk(const PassableGrid& grid, JumpPoints& 
                                           std::int32_t arrival, const WalkTask& task) noexcept {
   grid_ = &grid;
   points_ = &points;
-  count_look();
+  look_ = 1;
   at_ = task.start;
   left_ = task.cost;
   guide_count_ = 0;
@@ -188,7 +188,7 @@ bool PathWalk::is_cheapest(PathPixel from, int direction, std::int32_t left) con
 void PathWalk::arrive(PathPixel pixel, std::int32_t left) noexcept {
   at_ = pixel;
   left_ = left;
-  count_look();
+  ++look_;
   guides_.swap(before_);
   const std::size_t count = std::exchange(guide_count_, 0);
   for (std::size_t i = 0; i < count; ++i) {

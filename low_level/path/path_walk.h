@@ -40,8 +40,8 @@ class PathWalk {
   // With room for so many guides.
   explicit PathWalk(std::size_t capacity);
 
-  // The path, as long as the next walk lasts; empty where it has more than kMaxPathPixels.
-  // `arrival` is the first of the start's.
+  // The path, valid until the next walk, over the points of a search just made; empty where it has
+  // more than kMaxPathPixels. `arrival` is the first of the start's.
   [[nodiscard]] std::span<const PathPixel> walk(const PassableGrid& grid, JumpPoints& points,
                                                 std::int32_t arrival,
                                                 const WalkTask& task) noexcept;
@@ -50,7 +50,6 @@ class PathWalk {
   class Choices;
 
   void arrive(PathPixel pixel, std::int32_t left) noexcept;
-  void count_look() noexcept { look_ += look_ + 1 == 0 ? 2 : 1; }
   void look_along() noexcept;
   void look_back(std::int32_t arrival) noexcept;
   void consider(std::int32_t point) noexcept;
@@ -67,7 +66,7 @@ class PathWalk {
 
   const PassableGrid* grid_ = nullptr;  // during a walk
   JumpPoints* points_ = nullptr;
-  std::uint32_t look_ = 0;  // counts the pixels arrived at; 0 is none
+  std::uint32_t look_ = 0;  // counts the pixels arrived at, from 1
   PathPixel at_;
   std::int32_t left_ = 0;             // to pay from here
   std::vector<std::int32_t> guides_;  // of here

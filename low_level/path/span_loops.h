@@ -28,7 +28,7 @@ struct Conic {
 // The places of a shape in some lines, one below the other.
 struct SpanBatch {
   static constexpr int kLines = 128;
-  static constexpr int kGroup = 8;  // lines; no vector is wider
+  static constexpr int kGroup = 8;  // lines: as many as a vector of AVX2 holds
 
   std::array<std::int32_t, kLines> first;
   std::array<std::int32_t, kLines> last;

@@ -65,11 +65,11 @@ class WalkLeg {
         steps = go_both_ways(most, diagonals, straights, path);
         more = refused_ == 0;
       } else {
-        const int least = straights == 0 ? diagonals
+        const int asked = straights == 0 ? diagonals
                           : refused_ > 0 ? std::min(straights, refused_)
                                          : straights;
-        steps = go_one_way(straights > 0, least, path);
-        more = steps > 0 && steps == least;
+        steps = go_one_way(straights > 0, asked, path);
+        more = steps > 0 && steps == asked;
       }
       times[0] -= before.diagonals - way_.diagonals;
       times[1] -= before.straights - way_.straights;
@@ -134,7 +134,9 @@ class WalkLeg {
     const Step beside{steps_[0].column - straight.column, steps_[0].row - straight.row};
     const auto [by_diagonal, by_straight] = preference_changes();
     const int by_beside = by_diagonal - by_straight;
-    std::array<int, kLongStretch> entered;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    // After how many steps in all each diagonal one was taken.
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): written before it is read
+    std::array<int, kLongStretch> entered;
     int preference = this->preference();
     int column = at_.column;
     int row = at_.row;

@@ -85,7 +85,8 @@ TEST_CASE("search: on 2000 random frames it agrees with Dijkstra, and its path w
   REQUIRE(tally.none > 200);
 }
 
-TEST_CASE("search: and on 1000 with ten times as many obstacles", "[low_level][path]") {
+TEST_CASE("search: on 1000 random frames with ten times the obstacles it does too",
+          "[low_level][path]") {
   const Tally tally = judge(866501, 10, 1000);
   REQUIRE(tally.found > 600);
 }
