@@ -20,14 +20,27 @@ enum class OperatorOrder : std::uint8_t { kNone, kStart, kAbort, kHold, kResume 
 // planner task, where the mission lives.
 struct OperatorCommand {
   OperatorOrder order = OperatorOrder::kNone;
+  std::uint64_t aborts = 0;  // [-] ordered on this blackboard so far, this one included
 
   static constexpr auto fields() noexcept {
-    return std::tuple{field("order", &OperatorCommand::order)};
+    return std::tuple{field("order", &OperatorCommand::order),
+                      field("aborts", &OperatorCommand::aborts)};
   }
 };
 
 enum class MissionState : std::uint8_t { kIdle, kUnderWay, kReached, kAborted, kHolding };
 [[nodiscard]] const char* to_string(MissionState state) noexcept;
+
+// What became of an order other than abort.
+enum class OrderAnswer : std::uint8_t {
+  kNone,         // there was no order yet
+  kObeyed,       // the mission is as it was ordered to be
+  kNotUnderWay,  // refused: nothing to hold from
+  kNotHolding,   // refused: nothing to resume
+  kAborted,      // refused: an abort stood beside it
+  kTooOld,       // refused: it was not taken in time
+};
+[[nodiscard]] const char* to_string(OrderAnswer answer) noexcept;
 
 // Written by the planner task at every step; read by the controller, the world (its scenario's
 // time starts with the mission) and displays.
@@ -38,12 +51,17 @@ struct MissionStatus {
   std::uint32_t goal_index = 0;  // [-] of the goal made for: mission waypoints first, goal last
   double goal_x_m = 0.0;         // [m] [world] that goal; while holding the place held
   double goal_y_m = 0.0;         // [m] [world]
+  std::uint64_t aborts = 0;      // [-] obeyed so far: OperatorCommand::aborts of the last one
+  std::uint64_t order = 0;       // [-] sequence of the last order answered, aborts apart
+  OrderAnswer answer = OrderAnswer::kNone;  // to that order
 
   static constexpr auto fields() noexcept {
     using M = MissionStatus;
     return std::tuple{field("state", &M::state),       field("started", &M::started),
                       field("ended", &M::ended),       field("goal_index", &M::goal_index),
-                      field("goal_x_m", &M::goal_x_m), field("goal_y_m", &M::goal_y_m)};
+                      field("goal_x_m", &M::goal_x_m), field("goal_y_m", &M::goal_y_m),
+                      field("aborts", &M::aborts),     field("order", &M::order),
+                      field("answer", &M::answer)};
   }
 };
 

@@ -28,6 +28,18 @@ const char* to_string(MissionState state) noexcept {
   return "unknown";
 }
 
+const char* to_string(OrderAnswer answer) noexcept {
+  switch (answer) {
+    case OrderAnswer::kNone: return "none";
+    case OrderAnswer::kObeyed: return "obeyed";
+    case OrderAnswer::kNotUnderWay: return "not_under_way";
+    case OrderAnswer::kNotHolding: return "not_holding";
+    case OrderAnswer::kAborted: return "aborted";
+    case OrderAnswer::kTooOld: return "too_old";
+  }
+  return "unknown";
+}
+
 const char* to_string(WaypointSource source) noexcept {
   switch (source) {
     case WaypointSource::kNone: return "none";
