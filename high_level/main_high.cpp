@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "deploy/cli/run/log.h"
 #include "deploy/cli/run/process_main.h"
 #include "deploy/cli/run/settings.h"
 #include "high_level/mission/command_socket.h"
@@ -120,6 +121,7 @@ int run(const cli::ProcessOptions& options, bool start_by_itself) {
 int main(int argc, char** argv) {
   namespace cli = lodesman::cli;
   cli::block_stop_signals();
+  cli::log_without_blocking();
   CLI::App app{"The high level: estimator, re-planner, guidance, control and mission",
                "lodesman-high"};
   cli::ProcessOptions options;

@@ -2,6 +2,7 @@
 // lodesman-low: owns the devices and the segment, and runs the low level's real-time tasks.
 #include <spdlog/spdlog.h>
 
+#include "deploy/cli/run/log.h"
 #include "deploy/cli/run/process_main.h"
 #include "deploy/cli/run/simulated_boat.h"
 #include "mid_level/blackboard/segment.h"
@@ -35,6 +36,7 @@ int run(const cli::ProcessOptions& options) {
 int main(int argc, char** argv) {
   namespace cli = lodesman::cli;
   cli::block_stop_signals();
+  cli::log_without_blocking();
   CLI::App app{"The low level: devices, sonar, path finder and thrusters", "lodesman-low"};
   cli::ProcessOptions options;
   cli::add_process_options(app, options);

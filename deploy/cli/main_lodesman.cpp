@@ -14,6 +14,7 @@
 
 int main(int argc, char** argv) {
   namespace cli = lodesman::cli;
+  cli::unblock_signals();
   CLI::App app{"Sees underwater obstacles with a forward-looking sonar and steers round them",
                "lodesman"};
   app.set_version_flag("--version", cli::kVersion);

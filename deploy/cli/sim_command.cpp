@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
@@ -23,6 +22,7 @@
 #include "deploy/cli/run/realtime_run.h"
 #include "deploy/cli/run/settings.h"
 #include "deploy/cli/run/simulated_boat.h"
+#include "deploy/cli/run/stop_signals.h"
 #include "deploy/cli/run/view_saver.h"
 #include "deploy/cli/version.h"
 #include "hal_sim/campaign/encounter.h"
@@ -43,8 +43,6 @@ struct SimOptions {
   bool wait_start = false;
   std::string console = "off";
 };
-
-volatile std::sig_atomic_t g_interrupted = 0;
 
 [[nodiscard]] fs::path run_directory(const SimOptions& options, const Scenario& scenario) {
   const std::time_t now = std::time(nullptr);
@@ -134,7 +132,7 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
       line.say(news);
     }
   };
-  const std::function<bool()> interrupted = [] { return g_interrupted != 0; };
+  const std::function<bool()> interrupted = [] { return stop_caught(); };
   const std::function<void(const RunProgress&)> show = [&](const RunProgress& progress) {
     line.show(progress);
   };
@@ -177,14 +175,13 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
   write_text(directory / "config.toml", configuration.to_text());
   write_text(directory / "scenario.toml", scenario_text);
 
-  std::signal(SIGINT, [](int) { g_interrupted = 1; });
-  std::signal(SIGTERM, [](int) { g_interrupted = 1; });
+  catch_stop_signals();
   RunRecord record = run(options, configuration, scenario, directory);
   record.result.scenario = scenario.name;
   record.result.profile = options.profile;
   record.result.seed = static_cast<std::int64_t>(scenario.seed);
   record.result.version = kVersion;
-  if (g_interrupted != 0 && !record.result.reached && record.result.outcome != "fault") {
+  if (stop_caught() && !record.result.reached && record.result.outcome != "fault") {
     record.result.outcome = record.result.collided ? "collision" : "aborted";
   }
   const bool written = write_run(directory, record, !options.no_images);

@@ -5,12 +5,12 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <thread>
 
 #include "deploy/cli/common_options.h"
+#include "deploy/cli/run/stop_signals.h"
 #include "deploy/cli/tools/board_watch.h"
 #include "deploy/cli/tools/file_check.h"
 #include "deploy/cli/tools/find_segment.h"
@@ -29,8 +29,6 @@ struct WatchOptions {
 constexpr Duration kRedrawPeriod = std::chrono::seconds{1};
 constexpr Duration kOnceLook = std::chrono::seconds{2};  // plans are 1.6 s apart
 constexpr Duration kPatience = std::chrono::milliseconds{200};
-
-volatile std::sig_atomic_t g_stopped = 0;
 
 // Those of the segments that a living lodesman-low holds.
 [[nodiscard]] std::vector<std::string> alive_of(const std::vector<std::string>& names) {
@@ -81,7 +79,7 @@ void look_on(BoardWatch& watch, const SharedBlackboard& board, Duration period) 
   const SteadyClock clock;
   const Time until = clock.now() + period;
   watch.poll(clock.now());
-  while (g_stopped == 0 && clock.now() < until && board.alive(Role::kLow)) {
+  while (!stop_caught() && clock.now() < until && board.alive(Role::kLow)) {
     std::this_thread::sleep_for(BoardWatch::kPollPeriod);
     watch.poll(clock.now());
   }
@@ -97,8 +95,7 @@ void look_on(BoardWatch& watch, const SharedBlackboard& board, Duration period) 
   const std::vector<std::string> found = segments_in("/dev/shm");
   const std::string segment = choose_segment(options.segment, found, alive_of(found));
   const SharedBlackboard board = SharedBlackboard::observe(segment, kPatience);
-  std::signal(SIGINT, [](int) { g_stopped = 1; });
-  std::signal(SIGTERM, [](int) { g_stopped = 1; });
+  catch_stop_signals();
   BoardWatch watch{*board};
   if (options.once || options.common.json) {
     look_on(watch, board, kOnceLook);
@@ -117,11 +114,14 @@ void look_on(BoardWatch& watch, const SharedBlackboard& board, Duration period) 
   }
   for (;;) {
     look_on(watch, board, kRedrawPeriod);
-    if (g_stopped != 0) {
+    if (stop_caught()) {
       break;
     }
     const SegmentState state = state_of(segment, board, watch);
     terminal ? redraw(table_lines(state, true)) : print(table_lines(state, false));
+    if (std::ferror(stdout) != 0) {
+      break;  // nobody looks any more
+    }
     if (!state.low_alive) {
       fmt::print("{}: lodesman-low is gone\n", segment);
       break;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/cli/run/child_process.h"
 
+#include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <system_error>
@@ -19,11 +21,15 @@ namespace {
 constexpr int kCannotRun = 127;
 
 // In the child, between fork and exec: nothing but system calls.
-[[noreturn]] void become(const char* path, char* const* arguments, pid_t parent) noexcept {
-  // What the parent does on these signals is not for this copy of it to do.
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+[[noreturn]] void become(const char* path, char* const* arguments, pid_t parent,
+                         int input) noexcept {
+  // What the parent does on these signals, or keeps from itself, is not for this copy of it.
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGPIPE, SIGCHLD, SIGXFSZ}) {
     std::signal(signal, SIG_DFL);
   }
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) {
     _exit(kCannotRun);  // the parent died before the line above
@@ -31,8 +37,13 @@ constexpr int kCannotRun = 127;
   // An interrupt typed at the terminal reaches the parent, which stops its children in order.
   setpgid(0, 0);
   dup2(STDERR_FILENO, STDOUT_FILENO);
+  dup2(input, STDIN_FILENO);
   execv(path, arguments);
   _exit(kCannotRun);
+}
+
+[[noreturn]] void refuse_to_start(const std::string& program) {
+  throw StartupError(program + " cannot be started: " + std::generic_category().message(errno));
 }
 
 }  // namespace
@@ -53,23 +64,41 @@ ChildProcess::ChildProcess(const std::string& program, const std::vector<std::st
     pointers.push_back(word.data());
   }
   pointers.push_back(nullptr);
+  std::array<int, 2> pipe_ends{};
+  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
+    refuse_to_start(program);
+  }
   const pid_t parent = getpid();
   pid_ = fork();
-  if (pid_ < 0) {
-    throw StartupError(program + " cannot be started: " + std::generic_category().message(errno));
-  }
   if (pid_ == 0) {
-    become(path.c_str(), pointers.data(), parent);
+    become(path.c_str(), pointers.data(), parent, pipe_ends[0]);
+  }
+  const int error_number = errno;
+  close(pipe_ends[0]);
+  life_line_ = pipe_ends[1];
+  if (pid_ < 0) {
+    close(life_line_);
+    errno = error_number;
+    refuse_to_start(program);
   }
 }
 
-ChildProcess::~ChildProcess() { stop(std::chrono::seconds{2}); }
+ChildProcess::~ChildProcess() {
+  stop(std::chrono::seconds{2});
+  close(life_line_);
+}
 
 const std::optional<std::string>& ChildProcess::ended() {
   int status = 0;
-  if (!ended_ && waitpid(pid_, &status, WNOHANG) == pid_) {
-    ended_ = WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
-                                 : "exit status " + std::to_string(WEXITSTATUS(status));
+  const pid_t waited = ended_ ? 0 : waitpid(pid_, &status, WNOHANG);
+  if (waited == pid_) {
+    if (WIFEXITED(status)) {
+      exit_status_ = WEXITSTATUS(status);
+    }
+    ended_ = exit_status_ ? "exit status " + std::to_string(*exit_status_)
+                          : "signal " + std::to_string(WTERMSIG(status));
+  } else if (waited < 0 && errno == ECHILD) {
+    ended_ = "unseen";
   }
   return ended_;
 }
@@ -87,7 +116,8 @@ void ChildProcess::stop(Duration patience) {
   if (!ended()) {
     kill(pid_, SIGKILL);
     int status = 0;
-    waitpid(pid_, &status, 0);
+    while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+    }
     ended_ = "killed";
   }
 }

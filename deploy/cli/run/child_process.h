@@ -15,8 +15,10 @@ namespace lodesman::cli {
 
 class ChildProcess {
  public:
-  // Starts a program that lies beside this one; the kernel ends it when this process dies. Its
-  // standard output is this process's standard error. Throws StartupError when it cannot be run.
+  // Starts a program that lies beside this one. Its standard output is this process's standard
+  // error. Its standard input is a pipe that ends when this process does, however that dies; the
+  // kernel sends it SIGTERM too, but only to a program that gains no rights by being run. Throws
+  // StartupError when it cannot be run.
   ChildProcess(const std::string& program, const std::vector<std::string>& arguments);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -24,15 +26,20 @@ class ChildProcess {
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] pid_t pid() const noexcept { return pid_; }
-  // How it ended ("exit status 4", "signal 9"); empty while it runs.
+  // How it ended ("exit status 4", "signal 9"); empty while it runs. Never an end that is missed:
+  // a child that somebody else has waited for is gone.
   [[nodiscard]] const std::optional<std::string>& ended();
+  // Empty while it runs, and where it did not exit by itself.
+  [[nodiscard]] std::optional<int> exit_status() const noexcept { return exit_status_; }
   // Asks it to end, and kills it when it has not after `patience`.
   void stop(Duration patience);
 
  private:
   std::string name_;
   pid_t pid_ = -1;
+  int life_line_ = -1;  // the pipe's other end
   std::optional<std::string> ended_;
+  std::optional<int> exit_status_;
 };
 
 }  // namespace lodesman::cli

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/cli/run/process_main.h"
 
-#include <csignal>
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cstdio>
-#include <ctime>
 #include <exception>
+#include <iostream>
 
 #include "deploy/cli/common_options.h"
 #include "mid_level/base/startup_error.h"
@@ -12,37 +14,24 @@
 namespace lodesman::cli {
 namespace {
 
-[[nodiscard]] sigset_t stop_signals() noexcept {
-  sigset_t set;
-  sigemptyset(&set);
-  sigaddset(&set, SIGINT);
-  sigaddset(&set, SIGTERM);
-  return set;
-}
-
-}  // namespace
-
-void add_process_options(CLI::App& app, ProcessOptions& options) {
-  app.add_option("--segment", options.segment, "Name of the shared-memory segment")->required();
-  app.add_option("--config", options.configuration_file, "Configuration with every key")
-      ->required();
-  app.add_option("--scenario", options.scenario_file, "Scenario to simulate")->required();
-  add_seed_option(app, options.seed);
-}
-
-void block_stop_signals() {
-  const sigset_t set = stop_signals();
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);
-}
-
-void wait_for_stop(const std::function<bool()>& give_up) {
-  const sigset_t set = stop_signals();
-  const timespec tenth{0, 100'000'000};
-  while (sigtimedwait(&set, nullptr, &tenth) < 0 && !give_up()) {
+// A file that is opened later must not be taken for a stream that was closed. What is opened here
+// cannot be read, or written, as the closed one could not.
+void hold_closed_streams() noexcept {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) < 0) {
+      // The lowest free number is this one's.
+      static_cast<void>(open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+    }
   }
 }
 
-int process_main(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+[[nodiscard]] bool all_was_written() noexcept {
+  std::cout.flush();
+  return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::ferror(stderr) == 0;
+}
+
+[[nodiscard]] int status_of(CLI::App& app, int argc, char** argv,
+                            const std::function<int()>& body) {
   try {
     app.parse(argc, argv);
     return body();
@@ -59,6 +48,29 @@ int process_main(CLI::App& app, int argc, char** argv, const std::function<int()
     std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.what());
     return kExitFault;
   }
+}
+
+}  // namespace
+
+void add_process_options(CLI::App& app, ProcessOptions& options) {
+  app.add_option("--segment", options.segment, "Name of the shared-memory segment")->required();
+  app.add_option("--config", options.configuration_file, "Configuration with every key")
+      ->required();
+  app.add_option("--scenario", options.scenario_file, "Scenario to simulate")->required();
+  add_seed_option(app, options.seed);
+  app.add_flag_callback("--stop-with-input", stop_with_standard_input,
+                        "End with standard input, a pipe: so no child outlives its launcher");
+}
+
+int process_main(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+  hold_closed_streams();
+  settle_signals();
+  const int status = status_of(app, argc, argv, body);
+  if (!all_was_written() && status == kExitDone) {
+    std::fprintf(stderr, "%s: standard output cannot be written\n", app.get_name().c_str());
+    return kExitFault;
+  }
+  return status;
 }
 
 }  // namespace lodesman::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the main files of both processes have in common: their options, signals, and how a refusal
-// is said. The main thread.
+// What the main files have in common: the options of both processes, their streams and signals, how
+// a refusal is said, and that what could not be written is no success. The main thread.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,6 +8,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+
+#include "deploy/cli/run/stop_signals.h"
 
 namespace lodesman::cli {
 
@@ -20,12 +22,8 @@ struct ProcessOptions {
 
 void add_process_options(CLI::App& app, ProcessOptions& options);
 
-// Keeps SIGINT and SIGTERM for wait_for_stop(). To be called before any thread is started.
-void block_stop_signals();
-// Returns on SIGINT or SIGTERM, or once `give_up` says true (asked ten times a second).
-void wait_for_stop(const std::function<bool()>& give_up);
-
-// Parses, runs `body` and turns what it throws into one line and an exit status.
+// Parses, runs `body` and turns what it throws into one line and an exit status, which is a fault
+// too where standard output could not be written.
 [[nodiscard]] int process_main(CLI::App& app, int argc, char** argv,
                                const std::function<int()>& body);
 

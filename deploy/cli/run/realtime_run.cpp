@@ -23,10 +23,11 @@ class TwoProcesses {
  public:
   explicit TwoProcesses(const RealtimeRun& run)
       : segment_{"lodesman-sim-" + std::to_string(getpid())} {
-    const std::vector<std::string> common{"--segment",  segment_,
-                                          "--config",   run.configuration_file.string(),
-                                          "--scenario", run.scenario_file.string(),
-                                          "--seed",     std::to_string(run.scenario.seed)};
+    const std::vector<std::string> common{"--segment",        segment_,
+                                          "--config",         run.configuration_file.string(),
+                                          "--scenario",       run.scenario_file.string(),
+                                          "--seed",           std::to_string(run.scenario.seed),
+                                          "--stop-with-input"};
     low_ = std::make_unique<ChildProcess>("lodesman-low", common);
     std::vector<std::string> high = common;
     if (!run.wait_start) {

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the programs' log goes. The main thread, before any other.
+#pragma once
+
+namespace lodesman::cli {
+
+// To standard error from now on; a reader that does not read costs lines and holds up nobody.
+void log_without_blocking();
+
+}  // namespace lodesman::cli
