@@ -29,14 +29,18 @@ namespace fs = std::filesystem;
 // A directory of its own for each test, gone with it.
 class Scratch {
  public:
-  explicit Scratch(const std::string& name)
-      : directory_{fs::temp_directory_path() /
-                   ("lodesman-test-" + name + "-" + std::to_string(getpid()))} {
-    fs::create_directories(directory_);
+  explicit Scratch(const std::string& name) {
+    std::string pattern =
+        (fs::temp_directory_path() / ("lodesman-test-" + name + "-XXXXXX")).string();
+    REQUIRE(mkdtemp(pattern.data()) != nullptr);
+    directory_ = pattern;
   }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
-  ~Scratch() { fs::remove_all(directory_); }
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(directory_, ignored);
+  }
   [[nodiscard]] fs::path file(const std::string& name, const std::string& text = "") const {
     if (!text.empty()) {
       std::ofstream{directory_ / name} << text;
@@ -56,8 +60,11 @@ inline std::string scenario_text(double goal_y_m) {
          "]\ngoal_radius_m = 0.5\n[vehicle]\nspeed_m_s = 0.74\nradius_m = 0.5\n";
 }
 
+// Patience for what a machine under load may take its time over; nothing is judged by it.
+inline constexpr Duration kPatience = seconds{60};
+
 template <class Condition>
-bool eventually(Condition condition, Duration patience = seconds{20}) {
+bool eventually(Condition condition, Duration patience = kPatience) {
   const SteadyClock clock;
   const Time deadline = clock.now() + patience;
   while (!condition()) {
@@ -67,6 +74,14 @@ bool eventually(Condition condition, Duration patience = seconds{20}) {
     std::this_thread::sleep_for(milliseconds{2});
   }
   return true;
+}
+
+// The newest value of a channel, once there is one.
+template <class T>
+const Stamped<T>& await_first(Reader<T>& reader) {
+  const Stamped<T>* newest = nullptr;
+  REQUIRE(eventually([&] { return (newest = reader.latest()) != nullptr; }));
+  return *newest;
 }
 
 // A child of a process by its program's name; 0 when there is none.
@@ -126,14 +141,14 @@ inline bool drives(const Stamped<ThrustApplied>* thrust) {
 // Kills the high level after a random while under way. Gives how long after its last command the
 // thrusters were neutral, by the stamps of what was published.
 inline double neutral_after_kill_s(Boat& boat, std::mt19937& random) {
-  const auto board = SharedBlackboard::observe(boat.segment, seconds{20});
+  const auto board = SharedBlackboard::observe(boat.segment, kPatience);
   Reader<ThrustApplied> thrust{board->thrust_applied};
   Reader<HelmCommand> helm{board->helm_command};
   REQUIRE(eventually([&] { return drives(thrust.latest()); }));
   std::this_thread::sleep_for(milliseconds{random() % 300});
   REQUIRE(kill(boat.high->pid(), SIGKILL) == 0);
   REQUIRE(eventually([&] { return boat.high->ended().has_value(); }));
-  const Time last_command = helm.latest()->stamp;
+  const Time last_command = await_first(helm).stamp;
   const Stamped<ThrustApplied>* neutral = nullptr;
   REQUIRE(eventually([&] {
     const auto* newest = thrust.next();

@@ -58,7 +58,7 @@ struct Run {
                   "paper", "--out", scratch.file("run").string(), "--quiet", "--no-images", "--set",
                   "command_socket.port=0"}},
         board{SharedBlackboard::observe("lodesman-sim-" + std::to_string(launcher.pid()),
-                                        seconds{20})} {
+                                        kPatience)} {
     Reader<ThrustApplied> thrust{board->thrust_applied};
     REQUIRE(eventually([&] { return drives(thrust.latest()); }));
   }
@@ -101,8 +101,8 @@ TEST_CASE("kill campaign: the low level", "[.campaign]") {
     table.add("the launcher ends", to_seconds(clock.now() - killed));
     CHECK(*run.launcher.ended() == "exit status 4");
     Reader<HelmCommand> helm{run.board->helm_command};
-    CHECK(helm.latest()->value.surge_ref == 0);  // its last word was a neutral one
-    table.add("the high level's last command", to_seconds(helm.latest()->stamp - killed));
+    CHECK(await_first(helm).value.surge_ref == 0);  // its last word was a neutral one
+    table.add("the high level's last command", to_seconds(await_first(helm).stamp - killed));
     CHECK_FALSE(run.board.alive(Role::kHigh));
     CHECK_FALSE(any_segment_of(run.launcher.pid()));
   }

@@ -71,7 +71,10 @@ class CountedBoat {
   [[nodiscard]] const std::map<TaskId, std::unique_ptr<CountedTask>>& tasks() const {
     return tasks_;
   }
-  [[nodiscard]] std::uint64_t plans() { return plan_.latest() ? plan_.latest()->value.id : 0; }
+  [[nodiscard]] std::uint64_t plans() {
+    const auto* newest = plan_.latest();
+    return newest != nullptr ? newest->value.id : 0;
+  }
 
  private:
   [[nodiscard]] static HighLevelOptions high_options(const TomlDocument& configuration,

@@ -102,6 +102,18 @@ Findings truth_readers(const SourceFile& file) {
        "high_level/tasks/estimator.h", "high_level/tasks/estimator.cpp", "deploy/cli/", "tests/"});
 }
 
+Findings hasty_tests(const SourceFile& file) {
+  if (!file.path.starts_with("tests/system/")) {
+    return {};
+  }
+  Findings findings = matches(file, file.code, R"(\b(latest|next|fresh)\([^()]*\)->)");
+  for (const auto& port :
+       matches(file, file.text, R"(command_socket\.port ?= ?([1-9]\d{0,3}|[1-6]\d{4})\b)")) {
+    findings.push_back(port);
+  }
+  return findings;
+}
+
 Findings long_lines(const SourceFile& file) {
   Findings findings;
   const auto lines = lines_of(file.text);
@@ -231,6 +243,7 @@ const std::vector<Rule>& rules() {
       {"chance", chance},
       {"conditionals", conditionals},
       {"truth readers", truth_readers},
+      {"hasty tests", hasty_tests},
       {"long lines", long_lines},
       {"long files", long_files},
       {"long functions", long_functions},

@@ -31,6 +31,8 @@ struct Rule {
 [[nodiscard]] Findings chance(const SourceFile& file);
 [[nodiscard]] Findings conditionals(const SourceFile& file);
 [[nodiscard]] Findings truth_readers(const SourceFile& file);
+// Tests beside running processes wait for what they read and take no fixed port.
+[[nodiscard]] Findings hasty_tests(const SourceFile& file);
 [[nodiscard]] Findings long_lines(const SourceFile& file);
 [[nodiscard]] Findings long_files(const SourceFile& file);
 [[nodiscard]] Findings long_functions(const SourceFile& file);

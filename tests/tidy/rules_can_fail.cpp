@@ -121,6 +121,19 @@ TEST_CASE("tidy: words that have no place in a room are seen", "[tidy]") {
   });
 }
 
+TEST_CASE("tidy: a test that does not wait for what it reads or wants a port of its own is seen",
+          "[tidy]") {
+  const std::string read = "CHECK(plan.latest()->value.id == 3);\n";
+  const std::string waited = "CHECK(await_first(plan).value.id == 3);\n";
+  const std::string port = "auto o = \"command_socket.";
+  check_rows({
+      {hasty_tests, "tests/system/a.cpp", read, 1, "tests/unit/a.cpp", read},
+      {hasty_tests, "tests/system/a.cpp", "\n" + read, 2, "tests/system/a.cpp", waited},
+      {hasty_tests, "tests/system/a.cpp", port + "port=17447\";\n", 1, "tests/system/a.cpp",
+       port + "port=0\";\n"},
+  });
+}
+
 TEST_CASE("tidy: what is too long is seen", "[tidy]") {
   const auto lines = [](std::size_t count) {
     std::string text;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "low_level/sonar/ping_image.h"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -19,7 +21,8 @@ namespace fs = std::filesystem;
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& bytes)
-      : path_{fs::temp_directory_path() / ("lodesman-test-" + name)} {
+      : path_{fs::temp_directory_path() /
+              ("lodesman-test-" + std::to_string(getpid()) + "-" + name)} {
     std::ofstream{path_, std::ios::binary} << bytes;
   }
   ~TemporaryFile() { fs::remove(path_); }
