@@ -20,6 +20,7 @@
 #include "mid_level/base/startup_error.h"
 #include "mid_level/base/time.h"
 #include "mid_level/messages/fields.h"
+#include "mid_level/messages/sane.h"
 
 namespace lodesman {
 
@@ -139,7 +140,8 @@ class Writer {
   std::uint64_t sequence_ = 0;
 };
 
-// A reader with a copy of its own: what it hands out stays valid until its next call.
+// A reader with a copy of its own: what it hands out stays valid until its next call, and is sane.
+// What is published and is not sane is passed over, as if it had never been published, and counted.
 template <Wire T, template <class> class Atomic = std::atomic>
 class Reader {
  public:
@@ -153,19 +155,36 @@ class Reader {
 
   // The newest whole value; nullptr as long as there was none.
   [[nodiscard]] const Stamped<T>* latest() noexcept {
-    for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+    for (std::size_t attempt = 0; attempt < kMaxAttempts; ++attempt) {
       const std::uint64_t newest = newest_sequence();
-      if (newest == 0 || newest == held_->sequence || take(newest)) {
+      if (newest == 0 || newest == held_->sequence || is_behind_held(newest)) {
+        break;
+      }
+      const Taken taken = take(newest);
+      if (taken == Taken::kNotSane) {
+        take_newest_before(newest, [](const Stamped<T>&) { return true; });
+      }
+      if (taken != Taken::kNotWhole) {
         break;
       }
     }
     return held_->sequence == 0 ? nullptr : held_.get();
   }
 
-  // The newest value if it is no older than max_age; nullptr when it is stale.
+  // The newest value that was measured (or, where it does not say when, published) in the time from
+  // now - max_age to now; nullptr when there is none. What is later than `now`, as another thread's
+  // may be by a moment, is not of now yet.
   [[nodiscard]] const Stamped<T>* fresh(Time now, Duration max_age) noexcept {
     const Stamped<T>* newest = latest();
-    return newest != nullptr && now - newest->stamp <= max_age ? newest : nullptr;
+    if (newest != nullptr && measured_at(*newest) > now) {
+      const std::uint64_t later = newest->sequence;
+      newest = take_newest_before(
+                   later, [now](const Stamped<T>& value) { return measured_at(value) <= now; })
+                   ? held_.get()
+                   : nullptr;
+    }
+    // Times are at least 0, so that their difference is one too.
+    return newest != nullptr && now - measured_at(*newest) <= max_age ? newest : nullptr;
   }
 
   // The oldest value after the one held that the ring still has; nullptr when there is none yet.
@@ -173,14 +192,17 @@ class Reader {
   [[nodiscard]] const Stamped<T>* next() noexcept {
     const std::uint64_t held = held_->sequence;
     std::uint64_t wanted = held + 1;
-    for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+    for (std::size_t attempt = 0; attempt < kMaxAttempts + count_; ++attempt) {
       const std::uint64_t newest = newest_sequence();
       if (newest < wanted) {
+        if (newest < held && !is_behind_held(newest)) {
+          held_->sequence = newest;
+        }
         return nullptr;
       }
       const std::uint64_t oldest = newest >= count_ ? newest - count_ + 1 : 1;
       wanted = std::max(wanted, oldest);
-      if (take(wanted)) {
+      if (take(wanted) == Taken::kWhole) {
         missed_ += wanted - held - 1;
         return held_.get();
       }
@@ -192,45 +214,84 @@ class Reader {
 
   // The value with this sequence number; nullptr when the ring no longer (or not yet) has it.
   [[nodiscard]] const Stamped<T>* at(std::uint64_t sequence) noexcept {
-    return sequence != 0 && (held_->sequence == sequence || take(sequence)) ? held_.get() : nullptr;
+    const bool held = held_->sequence == sequence;
+    return sequence != 0 && (held || take(sequence) == Taken::kWhole) ? held_.get() : nullptr;
   }
 
   [[nodiscard]] std::uint64_t newest_sequence() const noexcept {
     return head_->newest.load(std::memory_order_acquire);
   }
   [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
+  // How many values were passed over because they were not sane.
+  [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
 
  private:
-  static constexpr int kMaxAttempts = 64;
+  static constexpr std::size_t kMaxAttempts = 64;
+  enum class Taken : std::uint8_t { kWhole, kNotWhole, kNotSane };
 
-  // Copies value `sequence` into held_; leaves held_ as it was when that value is not whole.
-  [[nodiscard]] bool take(std::uint64_t sequence) noexcept {
+  [[nodiscard]] static Time measured_at(const Stamped<T>& published) noexcept {
+    if constexpr (HasMeasuredAt<T>) {
+      return published.value.measured_at();
+    } else {
+      return published.stamp;
+    }
+  }
+
+  // Whether a head below the value held is what is wrong: as long as that value stands in its
+  // place it was the newest. If it does not, it was never what the head said then.
+  [[nodiscard]] bool is_behind_held(std::uint64_t newest) const noexcept {
+    const std::uint64_t held = held_->sequence;
+    return newest < held &&
+           slots_[held % count_].version.load(std::memory_order_acquire) == 2 * held;
+  }
+
+  // Takes the newest whole and sane value older than `sequence` that the ring has and that is
+  // wanted; the one held counts too.
+  template <class Wanted>
+  bool take_newest_before(std::uint64_t sequence, Wanted wanted) noexcept {
+    for (std::size_t back = 1; back < count_ && back < sequence; ++back) {
+      const std::uint64_t older = sequence - back;
+      if ((older == held_->sequence || take(older) == Taken::kWhole) && wanted(*held_)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // Copies value `sequence` into held_; leaves held_ as it was when that value is not whole or not
+  // sane.
+  [[nodiscard]] Taken take(std::uint64_t sequence) noexcept {
     const ChannelSlot<T, Atomic>& slot = slots_[sequence % count_];
     if (slot.version.load(std::memory_order_acquire) != 2 * sequence) {
-      return false;
+      return Taken::kNotWhole;
     }
     const std::int64_t stamp_ns = slot.stamp_ns.load(std::memory_order_acquire);
     const std::uint64_t bytes = slot.bytes.load(std::memory_order_acquire);
-    if (bytes > sizeof(T)) {
-      return false;
-    }
     auto* to = reinterpret_cast<std::byte*>(&spare_->value);
+    const std::uint64_t copied = std::min<std::uint64_t>(bytes, sizeof(T));
     std::size_t word = 0;
-    for (; (word + 1) * 8 <= bytes; ++word) {
+    for (; (word + 1) * 8 <= copied; ++word) {
       const std::uint64_t bits = slot.words[word].load(std::memory_order_acquire);
       std::memcpy(to + word * 8, &bits, 8);
     }
-    if (word * 8 < bytes) {
+    if (word * 8 < copied) {
       const std::uint64_t bits = slot.words[word].load(std::memory_order_acquire);
-      std::memcpy(to + word * 8, &bits, bytes - word * 8);
+      std::memcpy(to + word * 8, &bits, copied - word * 8);
     }
     if (slot.version.load(std::memory_order_relaxed) != 2 * sequence) {
-      return false;
+      return Taken::kNotWhole;
     }
     spare_->stamp = Time{Duration{stamp_ns}};
     spare_->sequence = sequence;
+    if (!sane(spare_->stamp) || !sane(spare_->value) || used_bytes(spare_->value) != bytes) {
+      if (sequence > last_refused_ || sequence + count_ <= last_refused_) {
+        ++refused_;
+        last_refused_ = sequence;
+      }
+      return Taken::kNotSane;
+    }
     std::swap(held_, spare_);
-    return true;
+    return Taken::kWhole;
   }
 
   const ChannelHead<T, Atomic>* head_;
@@ -239,6 +300,8 @@ class Reader {
   std::unique_ptr<Stamped<T>> held_;
   std::unique_ptr<Stamped<T>> spare_;
   std::uint64_t missed_ = 0;
+  std::uint64_t refused_ = 0;
+  std::uint64_t last_refused_ = 0;  // each is counted once, however often it is met
 };
 
 }  // namespace lodesman

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "mid_level/base/clock.h"
+#include "mid_level/messages/layout.h"
 
 namespace lodesman {
 namespace bip = boost::interprocess;
@@ -64,14 +65,8 @@ class Fnv {
       add_byte(static_cast<std::uint8_t>(number >> (8 * i)));
     }
   }
-  template <class T>
-  void operator()(const char* name, const T& value) noexcept {
-    add(name);
-    add(sizeof(value));
-  }
-  void operator()(const char* name, const std::uint8_t* /*data*/, std::size_t /*count*/) noexcept {
-    add(name);
-  }
+  void operator()(const char* text) noexcept { add(text); }
+  void operator()(std::uint64_t number) noexcept { add(number); }
   [[nodiscard]] std::uint64_t value() const noexcept { return hash_; }
 
  private:
@@ -101,14 +96,14 @@ template <class Attempt>
 
 std::uint64_t layout_hash() {
   Fnv hash;
+  hash.add(LODESMAN_BUILD);
   hash.add(sizeof(SegmentLayout));
   const auto board = std::make_unique<Blackboard>();
   for_each_channel(*board, [&]<class C>(const ChannelInfo& info, const C& /*channel*/) {
     hash.add(info.name);
     hash.add(C::kSlots);
     hash.add(sizeof(C));
-    const auto value = std::make_unique<typename C::Value>();
-    visit_message(hash, *value);
+    visit_layout<typename C::Value>(hash);
   });
   return hash.value();
 }

@@ -15,6 +15,9 @@
 namespace lodesman {
 
 enum class OperatorOrder : std::uint8_t { kNone, kStart, kAbort, kHold, kResume };
+[[nodiscard]] constexpr auto enumerators(OperatorOrder) noexcept {
+  return enumerators_to<OperatorOrder::kResume>("none", "start", "abort", "hold", "resume");
+}
 
 // Written by the command socket (or by the program that starts a simulation); read by the
 // planner task, where the mission lives.
@@ -29,7 +32,10 @@ struct OperatorCommand {
 };
 
 enum class MissionState : std::uint8_t { kIdle, kUnderWay, kReached, kAborted, kHolding };
-[[nodiscard]] const char* to_string(MissionState state) noexcept;
+[[nodiscard]] constexpr auto enumerators(MissionState) noexcept {
+  return enumerators_to<MissionState::kHolding>("idle", "under_way", "reached", "aborted",
+                                                "holding");
+}
 
 // What became of an order other than abort.
 enum class OrderAnswer : std::uint8_t {
@@ -40,7 +46,10 @@ enum class OrderAnswer : std::uint8_t {
   kAborted,      // refused: an abort stood beside it
   kTooOld,       // refused: it was not taken in time
 };
-[[nodiscard]] const char* to_string(OrderAnswer answer) noexcept;
+[[nodiscard]] constexpr auto enumerators(OrderAnswer) noexcept {
+  return enumerators_to<OrderAnswer::kTooOld>("none", "obeyed", "not_under_way", "not_holding",
+                                              "aborted", "too_old");
+}
 
 // Written by the planner task at every step; read by the controller, the world (its scenario's
 // time starts with the mission) and displays.
@@ -81,7 +90,9 @@ enum class WaypointSource : std::uint8_t {
   kCurrent,   // of the path just found
   kPrevious,  // no path found: the previous waypoints stand (step 12.4.1)
 };
-[[nodiscard]] const char* to_string(WaypointSource source) noexcept;
+[[nodiscard]] constexpr auto enumerators(WaypointSource) noexcept {
+  return enumerators_to<WaypointSource::kPrevious>("none", "current", "previous");
+}
 
 // What the plan does about it when the straight way to the goal is not to be had; the highest one
 // that works is taken.
@@ -97,7 +108,11 @@ enum class PlanRung : std::uint8_t {
   kPrevious,   // no answer or no frame: along the previous waypoints
   kNothing,    // nothing to follow
 };
-[[nodiscard]] const char* to_string(PlanRung rung) noexcept;
+[[nodiscard]] constexpr auto enumerators(PlanRung) noexcept {
+  return enumerators_to<PlanRung::kNothing>("on_route", "aside", "slow", "stop", "escape",
+                                            "near_goal", "best_point", "hold", "previous",
+                                            "nothing");
+}
 
 // How the controller follows a plan.
 enum class SteerBy : std::uint8_t {
@@ -105,6 +120,9 @@ enum class SteerBy : std::uint8_t {
   kLine,       // by line of sight along the line through the waypoints
   kCourse,     // on a course
 };
+[[nodiscard]] constexpr auto enumerators(SteerBy) noexcept {
+  return enumerators_to<SteerBy::kCourse>("waypoints", "line", "course");
+}
 
 // One pass through Fig. 1. Written by the planner task once an answer of PathFinder (or a request
 // that got none); read by the controller and displays.
@@ -121,13 +139,13 @@ struct Plan {
   WaypointSource source = WaypointSource::kNone;
   PlanRung rung = PlanRung::kOnRoute;
   SteerBy steer_by = SteerBy::kWaypoints;
-  double course_rad = 0.0;           // [rad] [-pi, pi] steered, or faced while holding
-  double speed_share = 1.0;          // [-] of the mission's SurgeRef; more than 1: to get away
-  bool stay_at_end = false;          // the last waypoint is a place to wait at
-  bool narrow = false;               // zones had to give what they may
-  bool changed = false;              // another side or another manoeuvre than in the plan before
-  std::uint32_t cause = 0;           // [-] Track::id that the rung is about; 0: none
-  double clearance_m = 0.0;          // [m] least one foreseen, of the hull; infinity: no obstacle
+  double course_rad = 0.0;   // [rad] [-pi, pi] steered, or faced while holding
+  double speed_share = 1.0;  // [-] [-100, 100] of the mission's SurgeRef; more than 1: to get away
+  bool stay_at_end = false;  // the last waypoint is a place to wait at
+  bool narrow = false;       // zones had to give what they may
+  bool changed = false;      // another side or another manoeuvre than in the plan before
+  std::uint32_t cause = 0;   // [-] Track::id that the rung is about; 0: none
+  double clearance_m = 0.0;  // [m] least one foreseen, of the hull; infinity: no obstacle
   double clearance_after_s = 0.0;    // [s] when
   std::uint64_t path_id = 0;         // [-] the plan whose path the waypoints belong to
   Time path_captured{};              // [ns] capture time of that plan's frame: how old the path is
@@ -141,30 +159,31 @@ struct Plan {
 
   static constexpr auto fields() noexcept {
     using P = Plan;
-    return std::tuple{field("id", &P::id),
-                      field("frame", &P::frame),
-                      field("captured", &P::captured),
-                      field("pose_x_m", &P::pose_x_m),
-                      field("pose_y_m", &P::pose_y_m),
-                      field("pose_heading_rad", &P::pose_heading_rad),
-                      field("goal_x_m", &P::goal_x_m),
-                      field("goal_y_m", &P::goal_y_m),
-                      field("reason", &P::reason),
-                      field("source", &P::source),
-                      field("rung", &P::rung),
-                      field("steer_by", &P::steer_by),
-                      field("course_rad", &P::course_rad),
-                      field("speed_share", &P::speed_share),
-                      field("stay_at_end", &P::stay_at_end),
-                      field("narrow", &P::narrow),
-                      field("changed", &P::changed),
-                      field("cause", &P::cause),
-                      field("clearance_m", &P::clearance_m),
-                      field("clearance_after_s", &P::clearance_after_s),
-                      field("path_id", &P::path_id),
-                      field("path_captured", &P::path_captured),
-                      field("waypoint_count", &P::waypoint_count),
-                      field("waypoints", &P::waypoints, &P::waypoint_count)};
+    return std::tuple{
+        field("id", &P::id),
+        field("frame", &P::frame),
+        field("captured", &P::captured),
+        field("pose_x_m", &P::pose_x_m),
+        field("pose_y_m", &P::pose_y_m),
+        field("pose_heading_rad", &P::pose_heading_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
+        field("goal_x_m", &P::goal_x_m),
+        field("goal_y_m", &P::goal_y_m),
+        field("reason", &P::reason),
+        field("source", &P::source),
+        field("rung", &P::rung),
+        field("steer_by", &P::steer_by),
+        field("course_rad", &P::course_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
+        field("speed_share", &P::speed_share).within(-100.0, 100.0),
+        field("stay_at_end", &P::stay_at_end),
+        field("narrow", &P::narrow),
+        field("changed", &P::changed),
+        field("cause", &P::cause),
+        field("clearance_m", &P::clearance_m).or_infinite(),
+        field("clearance_after_s", &P::clearance_after_s),
+        field("path_id", &P::path_id),
+        field("path_captured", &P::path_captured),
+        field("waypoint_count", &P::waypoint_count),
+        field("waypoints", &P::waypoints, &P::waypoint_count)};
   }
 };
 
@@ -175,8 +194,13 @@ enum class HelmReason : std::uint8_t {
   kStaleState,     // the estimate is too old: neutral
   kStaleAttitude,  // the heading is too old: neutral
   kStaleMission,   // the mission has fallen silent: neutral
+  kNotSane,        // what came out of it is no command: neutral
 };
-[[nodiscard]] const char* to_string(HelmReason reason) noexcept;
+[[nodiscard]] constexpr auto enumerators(HelmReason) noexcept {
+  return enumerators_to<HelmReason::kNotSane>("tracking", "not_under_way", "no_waypoints",
+                                              "stale_state", "stale_attitude", "stale_mission",
+                                              "not_sane");
+}
 
 // Written by the controller task at 20 Hz; read by the thruster task.
 struct HelmCommand {
@@ -192,8 +216,8 @@ struct HelmCommand {
   static constexpr auto fields() noexcept {
     using C = HelmCommand;
     return std::tuple{field("reason", &C::reason),
-                      field("surge_ref", &C::surge_ref),
-                      field("head_ref", &C::head_ref),
+                      field("surge_ref", &C::surge_ref).within(-100, 100),
+                      field("head_ref", &C::head_ref).within(-100, 100),
                       field("plan_id", &C::plan_id),
                       field("plan_captured", &C::plan_captured),
                       field("waypoint_index", &C::waypoint_index),
@@ -217,7 +241,10 @@ enum class ThrustReason : std::uint8_t {
   kStaleCommand,  // the helm has fallen silent: neutral
   kDeviceFailed,  // the thruster box does not take commands
 };
-[[nodiscard]] const char* to_string(ThrustReason reason) noexcept;
+[[nodiscard]] constexpr auto enumerators(ThrustReason) noexcept {
+  return enumerators_to<ThrustReason::kDeviceFailed>("commanded", "no_command", "stale_command",
+                                                     "device_failed");
+}
 
 // Written by the thruster task at 20 Hz, after the box took the command; read by the estimator
 // and displays.
@@ -237,8 +264,8 @@ struct ThrustApplied {
     return std::tuple{field("reason", &T::reason),
                       field("left", &T::left),
                       field("right", &T::right),
-                      field("surge_ref", &T::surge_ref),
-                      field("head_ref", &T::head_ref),
+                      field("surge_ref", &T::surge_ref).within(-100, 100),
+                      field("head_ref", &T::head_ref).within(-100, 100),
                       field("command_sequence", &T::command_sequence),
                       field("command_stamp", &T::command_stamp),
                       field("plan_id", &T::plan_id),

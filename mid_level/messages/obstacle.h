@@ -19,6 +19,9 @@ enum class ObstacleShape : std::uint8_t {
   kPolyline,  // a wall through its vertices
   kPolygon,   // a closed wall and what it encloses
 };
+[[nodiscard]] constexpr auto enumerators(ObstacleShape) noexcept {
+  return enumerators_to<ObstacleShape::kPolygon>("ellipse", "polyline", "polygon");
+}
 
 struct Vertex {
   double x_m = 0.0;  // [m] in the frame of the obstacle's message
@@ -47,18 +50,24 @@ struct Obstacle {
   std::uint32_t vertex_count = 0;    // [-] walls: [2, kMaxVertices]
   std::array<Vertex, kMaxVertices> vertices{};
 
+  // An ellipse has an extent; a wall has a side.
+  [[nodiscard]] bool fits() const noexcept {
+    return shape == ObstacleShape::kEllipse ? semi_axis_first_m > 0.0 && semi_axis_second_m > 0.0
+                                            : vertex_count >= 2;
+  }
+
   static constexpr auto fields() noexcept {
     using O = Obstacle;
     return std::tuple{field("id", &O::id),
                       field("shape", &O::shape),
                       field("centre_x_m", &O::centre_x_m),
                       field("centre_y_m", &O::centre_y_m),
-                      field("semi_axis_first_m", &O::semi_axis_first_m),
-                      field("semi_axis_second_m", &O::semi_axis_second_m),
-                      field("angle_rad", &O::angle_rad),
-                      field("protection_first_m", &O::protection_first_m),
-                      field("protection_second_m", &O::protection_second_m),
-                      field("peak", &O::peak),
+                      field("semi_axis_first_m", &O::semi_axis_first_m).within(0.0, 1e6),
+                      field("semi_axis_second_m", &O::semi_axis_second_m).within(0.0, 1e6),
+                      field("angle_rad", &O::angle_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
+                      field("protection_first_m", &O::protection_first_m).within(0.0, 1e6),
+                      field("protection_second_m", &O::protection_second_m).within(0.0, 1e6),
+                      field("peak", &O::peak).within(0.0, 255.0),
                       field("vertex_count", &O::vertex_count),
                       field("vertices", &O::vertices, &O::vertex_count)};
   }

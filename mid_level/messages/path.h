@@ -21,6 +21,9 @@ enum class PathSpace : std::uint8_t {
   kSonarView,  // the pixels of the sonar view (the paper): zones are those of the sonar frame
   kWorld,      // the plane round the start, in any direction: zones come with the request
 };
+[[nodiscard]] constexpr auto enumerators(PathSpace) noexcept {
+  return enumerators_to<PathSpace::kWorld>("sonar_view", "world");
+}
 
 // A zone to keep out of.
 struct PathZone {
@@ -31,7 +34,7 @@ struct PathZone {
 
   static constexpr auto fields() noexcept {
     using Z = PathZone;
-    return std::tuple{field("shape", &Z::shape), field("give_m", &Z::give_m),
+    return std::tuple{field("shape", &Z::shape), field("give_m", &Z::give_m).within(0.0, 1e6),
                       field("may_keep_to_port", &Z::may_keep_to_port),
                       field("may_keep_to_starboard", &Z::may_keep_to_starboard)};
   }
@@ -65,7 +68,7 @@ struct PathRequest {
                       field("goal_y_m", &P::goal_y_m),
                       field("start_x_m", &P::start_x_m),
                       field("start_y_m", &P::start_y_m),
-                      field("side_gain_m", &P::side_gain_m),
+                      field("side_gain_m", &P::side_gain_m).within(0.0, 1e6),
                       field("zone_count", &P::zone_count),
                       field("zones", &P::zones, &P::zone_count)};
   }
@@ -80,9 +83,11 @@ enum class PathReason : std::uint8_t {
   kLimit,          // the search or the path met its bound
   kNoFrame,        // no fresh sonar frame to plan in, or PathFinder gave no answer
 };
-inline constexpr std::size_t kPathReasonCount = 7;
-// The reason as the contract spells it: "found", "no_path", ...
-[[nodiscard]] const char* to_string(PathReason reason) noexcept;
+// As the contract spells them.
+[[nodiscard]] constexpr auto enumerators(PathReason) noexcept {
+  return enumerators_to<PathReason::kNoFrame>("found", "no_path", "start_blocked", "goal_blocked",
+                                              "goal_out_of_view", "limit", "no_frame");
+}
 
 inline constexpr std::size_t kMaxPathPoints = 512;
 
@@ -100,7 +105,8 @@ struct PathPixel {
   std::int16_t row = 0;     // [px] [0, 499]
 
   static constexpr auto fields() noexcept {
-    return std::tuple{field("column", &PathPixel::column), field("row", &PathPixel::row)};
+    return std::tuple{field("column", &PathPixel::column).within(0, 865),
+                      field("row", &PathPixel::row).within(0, 499)};
   }
 };
 
@@ -137,11 +143,11 @@ struct SonarPath {
                       field("reason", &P::reason),
                       field("cost_10_14", &P::cost_10_14),
                       field("expansions", &P::expansions),
-                      field("length_m", &P::length_m),
+                      field("length_m", &P::length_m).within(0.0, 1e9),
                       field("narrow", &P::narrow),
                       field("sides_changed", &P::sides_changed),
                       field("point_count", &P::point_count),
-                      field("points", &P::points),
+                      field("points", &P::points, &P::point_count),
                       measured_field("plan_time_ns", &P::plan_time_ns),
                       field("pixel_count", &P::pixel_count),
                       field("pixels", &P::pixels, &P::pixel_count)};

@@ -20,7 +20,7 @@ inline constexpr std::size_t kMaxBins = 1000;
 struct SonarPing {
   std::uint64_t number = 0;      // [-] counts up by one a ping of this sonar
   Time captured{};               // [ns] when the ping was sent
-  double range_m = 0.0;          // [m] (0, 300] of the far edge of the last bin
+  double range_m = 0.0;          // [m] [0.01, 300] of the far edge of the last bin
   double sector_rad = 0.0;       // [rad] (0, pi] the beams share it evenly, left to right
   std::uint32_t beams = 0;       // [-] [1, kMaxBeams]
   std::uint32_t bins = 0;        // [-] [1, kMaxBins]
@@ -31,6 +31,8 @@ struct SonarPing {
   [[nodiscard]] std::size_t used_bytes() const noexcept {
     return offsetof(SonarPing, echo) + std::min<std::size_t>(echo_count, echo.size());
   }
+  [[nodiscard]] Time measured_at() const noexcept { return captured; }
+  [[nodiscard]] bool fits() const noexcept { return echo_count == beams * bins; }
   // Bearing of a beam's centre, clockwise from straight ahead.
   [[nodiscard]] double bearing_rad(std::uint32_t beam) const noexcept {
     return sector_rad * ((beam + 0.5) / beams - 0.5);
@@ -42,10 +44,14 @@ struct SonarPing {
 
   static constexpr auto fields() noexcept {
     using P = SonarPing;
-    return std::tuple{field("number", &P::number),         field("captured", &P::captured),
-                      field("range_m", &P::range_m),       field("sector_rad", &P::sector_rad),
-                      field("beams", &P::beams),           field("bins", &P::bins),
-                      field("echo_count", &P::echo_count), field("echo", &P::echo, &P::echo_count)};
+    return std::tuple{field("number", &P::number),
+                      field("captured", &P::captured),
+                      field("range_m", &P::range_m).within(0.01, 300.0),
+                      field("sector_rad", &P::sector_rad).within(1e-3, kHalfTurn_rad),
+                      field("beams", &P::beams).within(1, kMaxBeams),
+                      field("bins", &P::bins).within(1, kMaxBins),
+                      field("echo_count", &P::echo_count),
+                      field("echo", &P::echo, &P::echo_count)};
   }
 };
 
@@ -62,6 +68,7 @@ struct SonarObstacles {
     return offsetof(SonarObstacles, obstacles) +
            std::min<std::size_t>(count, kMaxObstacles) * sizeof(Obstacle);
   }
+  [[nodiscard]] Time measured_at() const noexcept { return captured; }
 
   static constexpr auto fields() noexcept {
     using O = SonarObstacles;

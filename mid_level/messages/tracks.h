@@ -43,14 +43,14 @@ struct Track {
     return std::tuple{field("id", &T::id),
                       field("last_seen", &T::last_seen),
                       field("shape", &T::shape),
-                      field("velocity_x_m_s", &T::velocity_x_m_s),
-                      field("velocity_y_m_s", &T::velocity_y_m_s),
-                      field("place_xx_m2", &T::place_xx_m2),
+                      field("velocity_x_m_s", &T::velocity_x_m_s).within(-1e3, 1e3),
+                      field("velocity_y_m_s", &T::velocity_y_m_s).within(-1e3, 1e3),
+                      field("place_xx_m2", &T::place_xx_m2).within(0.0, 1e9),
                       field("place_xy_m2", &T::place_xy_m2),
-                      field("place_yy_m2", &T::place_yy_m2),
-                      field("velocity_xx_m2_s2", &T::velocity_xx_m2_s2),
+                      field("place_yy_m2", &T::place_yy_m2).within(0.0, 1e9),
+                      field("velocity_xx_m2_s2", &T::velocity_xx_m2_s2).within(0.0, 1e9),
                       field("velocity_xy_m2_s2", &T::velocity_xy_m2_s2),
-                      field("velocity_yy_m2_s2", &T::velocity_yy_m2_s2)};
+                      field("velocity_yy_m2_s2", &T::velocity_yy_m2_s2).within(0.0, 1e9)};
   }
 };
 
@@ -66,6 +66,7 @@ struct Tracks {
   [[nodiscard]] std::size_t used_bytes() const noexcept {
     return offsetof(Tracks, tracks) + std::min<std::size_t>(count, kMaxObstacles) * sizeof(Track);
   }
+  [[nodiscard]] Time measured_at() const noexcept { return captured; }
 
   static constexpr auto fields() noexcept {
     using T = Tracks;

@@ -14,12 +14,15 @@ namespace lodesman {
 struct Attitude {
   Time measured{};              // [ns] when the sensor measured it
   double heading_rad = 0.0;     // [rad] [-pi, pi] true, clockwise from north
-  double yaw_rate_rad_s = 0.0;  // [rad/s] clockwise positive
+  double yaw_rate_rad_s = 0.0;  // [rad/s] [-100, 100] clockwise positive
+
+  [[nodiscard]] Time measured_at() const noexcept { return measured; }
 
   static constexpr auto fields() noexcept {
     using A = Attitude;
-    return std::tuple{field("measured", &A::measured), field("heading_rad", &A::heading_rad),
-                      field("yaw_rate_rad_s", &A::yaw_rate_rad_s)};
+    return std::tuple{field("measured", &A::measured),
+                      field("heading_rad", &A::heading_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
+                      field("yaw_rate_rad_s", &A::yaw_rate_rad_s).within(-100.0, 100.0)};
   }
 };
 
@@ -28,12 +31,16 @@ struct PositionFix {
   Time measured{};             // [ns] when the receiver fixed it
   double latitude_deg = 0.0;   // [deg] [-90, 90] WGS-84
   double longitude_deg = 0.0;  // [deg] [-180, 180]
-  double sigma_m = 0.0;        // [m] one standard deviation, horizontal
+  double sigma_m = 0.0;        // [m] [0, 1e5] one standard deviation, horizontal
+
+  [[nodiscard]] Time measured_at() const noexcept { return measured; }
 
   static constexpr auto fields() noexcept {
     using P = PositionFix;
-    return std::tuple{field("measured", &P::measured), field("latitude_deg", &P::latitude_deg),
-                      field("longitude_deg", &P::longitude_deg), field("sigma_m", &P::sigma_m)};
+    return std::tuple{field("measured", &P::measured),
+                      field("latitude_deg", &P::latitude_deg).within(-90.0, 90.0),
+                      field("longitude_deg", &P::longitude_deg).within(-180.0, 180.0),
+                      field("sigma_m", &P::sigma_m).within(0.0, 1e5)};
   }
 };
 
@@ -52,15 +59,17 @@ struct VehicleState {
   double current_x_m_s = 0.0;  // [m/s] [world]
   double current_y_m_s = 0.0;  // [m/s] [world]
 
+  [[nodiscard]] Time measured_at() const noexcept { return valid_at; }
+
   static constexpr auto fields() noexcept {
     using V = VehicleState;
     return std::tuple{field("valid_at", &V::valid_at),
                       field("x_m", &V::x_m),
                       field("y_m", &V::y_m),
-                      field("heading_rad", &V::heading_rad),
-                      field("surge_m_s", &V::surge_m_s),
-                      field("current_x_m_s", &V::current_x_m_s),
-                      field("current_y_m_s", &V::current_y_m_s)};
+                      field("heading_rad", &V::heading_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
+                      field("surge_m_s", &V::surge_m_s).within(-1e3, 1e3),
+                      field("current_x_m_s", &V::current_x_m_s).within(-1e3, 1e3),
+                      field("current_y_m_s", &V::current_y_m_s).within(-1e3, 1e3)};
   }
 };
 
@@ -83,12 +92,12 @@ struct WorldTruth {
     return std::tuple{field("scenario_time_s", &W::scenario_time_s),
                       field("x_m", &W::x_m),
                       field("y_m", &W::y_m),
-                      field("heading_rad", &W::heading_rad),
+                      field("heading_rad", &W::heading_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
                       field("surge_m_s", &W::surge_m_s),
                       field("sway_m_s", &W::sway_m_s),
                       field("yaw_rate_rad_s", &W::yaw_rate_rad_s),
-                      field("inoffensive_distance_m", &W::inoffensive_distance_m),
-                      field("hull_clearance_m", &W::hull_clearance_m)};
+                      field("inoffensive_distance_m", &W::inoffensive_distance_m).or_infinite(),
+                      field("hull_clearance_m", &W::hull_clearance_m).or_infinite()};
   }
 };
 

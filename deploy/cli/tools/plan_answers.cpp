@@ -177,7 +177,7 @@ PlanAnswer MapPlanner::answer(const MovingAiQuery& query, std::size_t number, in
 }
 
 std::string summary_of(std::span<const PlanAnswer> answers) {
-  std::array<std::size_t, kPathReasonCount> reasons{};
+  std::array<std::size_t, enumerators(PathReason{}).size()> reasons{};
   std::size_t known = 0;
   std::size_t agreeing = 0;
   std::vector<double> us;
