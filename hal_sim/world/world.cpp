@@ -22,7 +22,14 @@ World::World(const Scenario& scenario, const VesselParameters& parameters)
               {scenario.environment.current_x_m_s, scenario.environment.current_y_m_s,
                scenario.environment.lift},
               scenario.mission.start} {
+  forget_the_least();
   observe(0.0);
+}
+
+void World::forget_the_least() noexcept {
+  truth_.least_inoffensive_distance_m = kInfinity;
+  truth_.least_inoffensive_distance_at_s = 0.0;
+  truth_.least_hull_clearance_m = kInfinity;
 }
 
 void World::step(double dt_s, double scenario_time_s, ThrustCommand thrust) noexcept {
@@ -40,6 +47,20 @@ void World::observe(double scenario_time_s) noexcept {
   truth_.surge_m_s = velocity_V_m_s.y();
   truth_.sway_m_s = velocity_V_m_s.x();
   truth_.yaw_rate_rad_s = vessel.yaw_rate_rad_s;
+  measure_distances(scenario_time_s);
+  keep_the_least();
+}
+
+void World::keep_the_least() noexcept {
+  if (truth_.inoffensive_distance_m < truth_.least_inoffensive_distance_m) {
+    truth_.least_inoffensive_distance_m = truth_.inoffensive_distance_m;
+    truth_.least_inoffensive_distance_at_s = truth_.scenario_time_s;
+  }
+  truth_.least_hull_clearance_m = std::min(truth_.least_hull_clearance_m, truth_.hull_clearance_m);
+}
+
+void World::measure_distances(double scenario_time_s) noexcept {
+  const VesselState& vessel = vessel_.state();
   truth_.inoffensive_distance_m = kInfinity;
   truth_.hull_clearance_m = kInfinity;
   const HullSize hull{parameters_.hull_length_m, parameters_.hull_beam_m};

@@ -18,10 +18,15 @@ class World {
   // `scenario_time_s`. Neither allocates nor throws.
   void step(double dt_s, double scenario_time_s, ThrustCommand thrust) noexcept;
 
+  // A mission starts: what was nearest before it no longer counts.
+  void forget_the_least() noexcept;
+
   [[nodiscard]] const WorldTruth& truth() const noexcept { return truth_; }
 
  private:
   void observe(double scenario_time_s) noexcept;
+  void measure_distances(double scenario_time_s) noexcept;
+  void keep_the_least() noexcept;
 
   std::vector<MovingObstacle> obstacles_;
   double vehicle_radius_m_;

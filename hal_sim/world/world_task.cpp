@@ -17,6 +17,10 @@ void WorldTask::step(Time now) noexcept {
   const Stamped<MissionStatus>* mission = mission_status_.latest();
   const bool started = mission != nullptr && mission->value.started != Time{};
   if (started) {
+    if (mission->value.started != mission_started_) {
+      mission_started_ = mission->value.started;
+      world_.forget_the_least();
+    }
     // The first step after the start moves on from the start alone.
     const Time from = std::max(stepped_to_, std::min(mission->value.started, now));
     const Duration dt = std::clamp(now - from, Duration{}, kLongestStep);

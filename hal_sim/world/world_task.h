@@ -35,6 +35,7 @@ class WorldTask final : public Task {
   Writer<WorldTruth> truth_out_;
   Writer<WorldSample> sample_out_;
   Time stepped_to_{};
+  Time mission_started_{};
 };
 
 }  // namespace lodesman

@@ -86,18 +86,26 @@ struct WorldTruth {
   // [m] signed; +infinity without obstacles
   double inoffensive_distance_m = 0.0;
   double hull_clearance_m = 0.0;  // [m] signed, from the oriented rectangle; +infinity likewise
+  // The least of both since the mission's start, so that nobody who looked away misses it.
+  double least_inoffensive_distance_m = 0.0;     // [m]
+  double least_inoffensive_distance_at_s = 0.0;  // [s] its scenario time
+  double least_hull_clearance_m = 0.0;           // [m]
 
   static constexpr auto fields() noexcept {
     using W = WorldTruth;
-    return std::tuple{field("scenario_time_s", &W::scenario_time_s),
-                      field("x_m", &W::x_m),
-                      field("y_m", &W::y_m),
-                      field("heading_rad", &W::heading_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
-                      field("surge_m_s", &W::surge_m_s),
-                      field("sway_m_s", &W::sway_m_s),
-                      field("yaw_rate_rad_s", &W::yaw_rate_rad_s),
-                      field("inoffensive_distance_m", &W::inoffensive_distance_m).or_infinite(),
-                      field("hull_clearance_m", &W::hull_clearance_m).or_infinite()};
+    return std::tuple{
+        field("scenario_time_s", &W::scenario_time_s),
+        field("x_m", &W::x_m),
+        field("y_m", &W::y_m),
+        field("heading_rad", &W::heading_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
+        field("surge_m_s", &W::surge_m_s),
+        field("sway_m_s", &W::sway_m_s),
+        field("yaw_rate_rad_s", &W::yaw_rate_rad_s),
+        field("inoffensive_distance_m", &W::inoffensive_distance_m).or_infinite(),
+        field("hull_clearance_m", &W::hull_clearance_m).or_infinite(),
+        field("least_inoffensive_distance_m", &W::least_inoffensive_distance_m).or_infinite(),
+        field("least_inoffensive_distance_at_s", &W::least_inoffensive_distance_at_s),
+        field("least_hull_clearance_m", &W::least_hull_clearance_m).or_infinite()};
   }
 };
 

@@ -114,6 +114,37 @@ TEST_CASE("world task: late and missed steps lose no time", "[hal_sim][world]") 
   CHECK(late.task.truth().scenario_time_s == Approx(regular.task.truth().scenario_time_s));
 }
 
+TEST_CASE("world task: the nearest there was since the start stays known, and no longer",
+          "[hal_sim][world]") {
+  Bench bench{
+      "[[obstacle]]\nshape = \"circle\"\ncentre_m = [0.0, 20.0]\nradius_m = 0.5\n"
+      "protection_m = 1.0\nvelocity_m_s = [0.0, -2.0]\n"};
+  bench.run_for(std::chrono::seconds{2});
+  bench.start();
+  double least_m = 1e9;
+  double at_s = 0.0;
+  double hull_m = 1e9;
+  for (int i = 0; i < 1000; ++i) {
+    bench.run_for(milliseconds{20});
+    const WorldTruth& truth = bench.task.truth();
+    if (truth.inoffensive_distance_m < least_m) {
+      least_m = truth.inoffensive_distance_m;
+      at_s = truth.scenario_time_s;
+    }
+    hull_m = std::min(hull_m, truth.hull_clearance_m);
+  }
+  const WorldTruth passed = bench.truths.latest()->value;
+  REQUIRE(passed.inoffensive_distance_m > 10.0);  // it came, and it went on
+  CHECK(passed.least_inoffensive_distance_m < 0.0);
+  CHECK(passed.least_inoffensive_distance_m == Approx(least_m).margin(0.0));
+  CHECK(passed.least_inoffensive_distance_at_s == Approx(at_s).margin(0.0));
+  CHECK(passed.least_hull_clearance_m == Approx(hull_m).margin(0.0));
+  bench.start();
+  bench.run_for(milliseconds{20});
+  CHECK(bench.truths.latest()->value.least_inoffensive_distance_m > 10.0);
+  CHECK(bench.truths.latest()->value.least_inoffensive_distance_at_s < 0.1);
+}
+
 TEST_CASE("world task: one world to a blackboard", "[hal_sim][world]") {
   Bench bench;
   SimLink other;
