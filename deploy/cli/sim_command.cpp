@@ -13,17 +13,19 @@
 #include <sstream>
 
 #include "deploy/cli/common_options.h"
+#include "deploy/cli/report/output_file.h"
 #include "deploy/cli/report/plan_story.h"
 #include "deploy/cli/report/plots.h"
 #include "deploy/cli/report/run_files.h"
-#include "deploy/cli/report/side_flips.h"
 #include "deploy/cli/run/lockstep_run.h"
 #include "deploy/cli/run/progress.h"
 #include "deploy/cli/run/realtime_run.h"
+#include "deploy/cli/run/run_directory.h"
 #include "deploy/cli/run/settings.h"
 #include "deploy/cli/run/simulated_boat.h"
 #include "deploy/cli/run/stop_signals.h"
 #include "deploy/cli/run/view_saver.h"
+#include "deploy/cli/tools/find_segment.h"
 #include "deploy/cli/version.h"
 #include "hal_sim/campaign/encounter.h"
 
@@ -38,6 +40,7 @@ struct SimOptions {
   std::string out;
   std::optional<std::uint64_t> seed;
   std::optional<double> time_limit_s;
+  bool force = false;
   bool lockstep = false;
   bool no_images = false;
   bool wait_start = false;
@@ -45,31 +48,18 @@ struct SimOptions {
 };
 
 [[nodiscard]] fs::path run_directory(const SimOptions& options, const Scenario& scenario) {
-  const std::time_t now = std::time(nullptr);
-  fs::path directory =
-      options.out.empty()
-          ? fs::path{"runs"} / fmt::format("{:%Y%m%dT%H%M%SZ}-{}", fmt::gmtime(now), scenario.name)
-          : fs::path{options.out};
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error) {
-    throw StartupError("--out: " + directory.string() + ": " + error.message());
+  if (!options.out.empty()) {
+    return make_named_directory(options.out, options.force);
   }
-  return directory;
+  const std::time_t now = std::time(nullptr);
+  return make_new_directory(fs::path{"runs"} /
+                            fmt::format("{:%Y%m%dT%H%M%SZ}-{}", fmt::gmtime(now), scenario.name));
 }
 
 [[nodiscard]] std::string read_text(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream{file, std::ios::binary}.rdbuf();
   return text.str();
-}
-
-void write_text(const fs::path& file, const std::string& text) {
-  std::ofstream stream{file};
-  stream << text;
-  if (!stream.flush()) {
-    throw StartupError(file.string() + ": cannot be written");
-  }
 }
 
 [[nodiscard]] int exit_status_of(const RunResult& result) noexcept {
@@ -100,10 +90,13 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
     reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
   }
   fmt::print("{} plans ({})", r.plans, reasons);
-  const SideFlips flips = side_flips(record.plans, record.obstacles);
-  fmt::print("; side changed {} times", flips.count);
-  if (flips.first_s) {
-    fmt::print(", first at {:.1f} s", *flips.first_s);
+  fmt::print("; side changed {} times", r.side_flips);
+  if (r.first_side_flip_s) {
+    fmt::print(", first at {:.1f} s", *r.first_side_flip_s);
+  }
+  if (r.truths_missed > 0 || r.plans_missed > 0) {
+    fmt::print("\nheld up: {} states of the world and {} plans are not in the files",
+               r.truths_missed, r.plans_missed);
   }
   fmt::print("\nrun directory: {}\n", directory.string());
   if (images) {
@@ -114,48 +107,81 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
   }
 }
 
-[[nodiscard]] RunRecord run(const SimOptions& options, const TomlDocument& configuration,
-                            const Scenario& scenario, const fs::path& directory) {
-  std::optional<ViewSaver> views;
-  if (!options.no_images) {
-    views.emplace(directory, simulation_settings(configuration).sonar_view_period,
-                  scenario.sonar.range_m);
+// What a run writes while it goes on. What cannot be written is said once, and the run goes on.
+class RunOutput {
+ public:
+  RunOutput(const SimOptions& options, const TomlDocument& configuration, const Scenario& scenario,
+            const fs::path& directory)
+      : files_{directory}, line_{scenario, options.common.quiet} {
+    if (!options.no_images) {
+      views_.emplace(directory, simulation_settings(configuration).sonar_view_period,
+                     scenario.sonar.range_m);
+    }
   }
-  ProgressLine line{scenario, options.common.quiet};
-  PlanStory story;
+
+  void show(const RunProgress& progress) { line_.show(progress); }
+  void add(const TrajectoryRow& row) {
+    files_.add(row);
+    note(files_.fault());
+  }
+  void add(const Blackboard& board, const Plan& plan, const SonarPath* path,
+           const PlanRecord& record) {
+    files_.add(record);
+    note(files_.fault());
+    if (views_) {
+      views_->save(board, plan, path, record);
+      note(views_->fault());
+    }
+    if (const std::string news = story_.news(record); !news.empty()) {
+      line_.say(news);
+    }
+  }
+  // result.json, then the pictures.
+  void finish(const fs::path& directory, const RunRecord& record) {
+    files_.finish(record.result);
+    note(files_.fault());
+    if (!views_) {
+      return;
+    }
+    try {
+      draw_pictures(directory, record);
+    } catch (const StartupError& error) {
+      note(error.what());
+    }
+  }
+  // Whether all of it could be written, what was said included.
+  [[nodiscard]] bool is_whole() const noexcept { return !lost_ && !line_.failed(); }
+
+ private:
+  void note(const std::string& fault) {
+    if (!fault.empty() && !lost_) {
+      lost_ = true;
+      line_.warn(fault);
+    }
+  }
+
+  RunFiles files_;
+  ProgressLine line_;
+  PlanStory story_;
+  std::optional<ViewSaver> views_;
+  bool lost_ = false;
+};
+
+[[nodiscard]] RunRecord run(const SimOptions& options, const TomlDocument& configuration,
+                            const Scenario& scenario, const fs::path& directory,
+                            RunOutput& output) {
   const auto on_plan = [&](const Blackboard& board, const Plan& plan, const SonarPath* path,
-                           const PlanRecord& record) {
-    if (views) {
-      views->save(board, plan, path, record);
-    }
-    if (const std::string news = story.news(record); !news.empty()) {
-      line.say(news);
-    }
-  };
-  const std::function<bool()> interrupted = [] { return stop_caught(); };
+                           const PlanRecord& record) { output.add(board, plan, path, record); };
+  const auto on_row = [&](const TrajectoryRow& row) { output.add(row); };
+  const std::function<bool()> interrupted = stop_caught;
   const std::function<void(const RunProgress&)> show = [&](const RunProgress& progress) {
-    line.show(progress);
+    output.show(progress);
   };
   if (options.lockstep) {
-    return run_lockstep({configuration, scenario, interrupted, show, on_plan});
+    return run_lockstep({configuration, scenario, interrupted, show, on_plan, {}, on_row});
   }
   return run_realtime({directory / "config.toml", directory / "scenario.toml", configuration,
-                       scenario, options.wait_start, interrupted, show, on_plan});
-}
-
-// False, and said, when the run directory could not be filled: after a run that is a fault, no
-// refusal.
-[[nodiscard]] bool write_run(const fs::path& directory, const RunRecord& record, bool images) {
-  try {
-    write_run_files(directory, record);
-    if (images) {
-      draw_pictures(directory, record);
-    }
-    return true;
-  } catch (const StartupError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return false;
-  }
+                       scenario, options.wait_start, interrupted, show, on_plan, on_row});
 }
 
 [[nodiscard]] int simulate(const SimOptions& options) {
@@ -172,11 +198,13 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
       number ? encounter_scenario(*number) : read_text(scenario_file(options.scenario));
   // Nothing is refused any more: now there may be files.
   const fs::path directory = run_directory(options, scenario);
-  write_text(directory / "config.toml", configuration.to_text());
-  write_text(directory / "scenario.toml", scenario_text);
+  write_whole_file(directory / "config.toml", configuration.to_text());
+  write_whole_file(directory / "scenario.toml", scenario_text);
 
   catch_stop_signals();
-  RunRecord record = run(options, configuration, scenario, directory);
+  remove_dead_runs();
+  RunOutput output{options, configuration, scenario, directory};
+  RunRecord record = run(options, configuration, scenario, directory, output);
   record.result.scenario = scenario.name;
   record.result.profile = options.profile;
   record.result.seed = static_cast<std::int64_t>(scenario.seed);
@@ -184,13 +212,13 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
   if (stop_caught() && !record.result.reached && record.result.outcome != "fault") {
     record.result.outcome = record.result.collided ? "collision" : "aborted";
   }
-  const bool written = write_run(directory, record, !options.no_images);
+  output.finish(directory, record);
   if (options.common.json) {
     fmt::print("{}", result_json(record.result));
   } else if (!options.common.quiet) {
     print_summary(record, directory, !options.no_images);
   }
-  return written ? exit_status_of(record.result) : kExitFault;
+  return output.is_whole() ? exit_status_of(record.result) : kExitFault;
 }
 
 void add_options(CLI::App& command, SimOptions& options) {
@@ -203,6 +231,7 @@ void add_options(CLI::App& command, SimOptions& options) {
       ->check(CLI::IsMember({"default", "paper"}));
   command.add_option("--out", options.out, "Run directory [runs/<UTC time>-<scenario>]")
       ->type_name("DIR");
+  command.add_flag("--force", options.force, "Into a directory that holds a run: writes over it");
   add_seed_option(command, options.seed);
   command.add_option("--time-limit", options.time_limit_s, "Instead of the scenario's")
       ->type_name("S")

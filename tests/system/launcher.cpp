@@ -159,3 +159,47 @@ TEST_CASE("launcher: each process ends cleanly on a hang-up and on a blocked sto
     CHECK(*boat.low->ended() == "exit status 0");
   }
 }
+
+TEST_CASE("launcher: a child that dies in start-up is a fault, one that refuses is a refusal",
+          "[system]") {
+  struct Row {
+    const char* script;
+    int status;
+  };
+  for (const auto& [script, status] :
+       {Row{"kill -9 $$", 4}, Row{"exit 139", 4}, Row{"exit 75", 4}, Row{"exit 2", 2}}) {
+    for (const bool low : {true, false}) {
+      INFO((low ? "low: " : "high: ") << script);
+      const Scratch scratch{"start-up"};
+      const Ship ship{scratch};
+      const std::string real = low ? "lodesman-high" : "lodesman-low";
+      ship.child(low ? "lodesman-low" : "lodesman-high", script);
+      ship.child(real, "exec '" + program(real).string() + "' \"$@\"");
+      const auto out = scratch.file("run");
+      Program launcher{ship.launcher(),
+                       sim(scratch.file("far.toml", scenario_text(25.0)), out, {"--quiet"})};
+      CHECK(launcher.status() == status);
+      CHECK_FALSE(any_segment_of(launcher.pid()));
+      if (status == 4) {
+        CHECK(result_of(out)["outcome"] == "fault");
+      }
+    }
+  }
+}
+
+TEST_CASE("launcher: a low level that has fallen silent ends the run at its time limit",
+          "[system]") {
+  const Scratch scratch{"frozen"};
+  const auto out = scratch.file("run");
+  Program launcher{program("lodesman"), sim(scratch.file("far.toml", scenario_text(25.0)), out,
+                                            {"--quiet", "--time-limit", "3"})};
+  {
+    const auto board = under_way(launcher);
+    const pid_t low = child_of(launcher.pid(), "lodesman-low");
+    REQUIRE(low > 0);
+    REQUIRE(kill(low, SIGSTOP) == 0);
+  }
+  CHECK(launcher.status() == 4);
+  CHECK(result_of(out)["fault"] == "lodesman-low has fallen silent");
+  CHECK_FALSE(any_segment_of(launcher.pid()));
+}

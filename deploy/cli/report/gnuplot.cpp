@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/cli/report/gnuplot.h"
 
+#include <fcntl.h>
 #include <gnuplot-iostream.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "deploy/cli/report/output_file.h"
 #include "deploy/cli/report/plot_script.h"
 #include "mid_level/base/startup_error.h"
 
@@ -30,15 +32,34 @@ bool gnuplot_is_installed() {
   return false;
 }
 
-// The reason why a file cannot be written is the system's to say: gnuplot would only say that.
-void require_writable(const std::filesystem::path& png) {
-  errno = 0;
-  std::ofstream file{png, std::ios::binary | std::ios::trunc};
-  if (!file) {
-    throw StartupError(png.string() + ": cannot be written: " +
-                       std::generic_category().message(errno != 0 ? errno : EIO));
+// The file that gnuplot draws into, which it knows by its number: a path may hold what would end a
+// line of its script, and why a file cannot be written is the system's to say.
+class Canvas {
+ public:
+  explicit Canvas(const std::filesystem::path& png)
+      : file_{unfinished(png)},
+        // Not closed at exec: gnuplot is to find it.
+        descriptor_{::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666)} {
+    if (descriptor_ < 0) {
+      throw StartupError(png.string() +
+                         ": cannot be written: " + std::generic_category().message(errno));
+    }
   }
-}
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+  ~Canvas() {
+    ::close(descriptor_);
+    std::error_code ignored;
+    std::filesystem::remove(file_, ignored);  // where it has not become the picture
+  }
+
+  [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
+  [[nodiscard]] std::string name() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_;
+};
 
 // gnuplot-iostream keeps gnuplot's exit status to itself, and a full disk would not show in it:
 // the picture itself must be whole, from its signature to its last chunk.
@@ -61,21 +82,24 @@ void draw_picture(const std::filesystem::path& png, PictureSize size, const std:
   if (!gnuplot_is_installed()) {
     throw StartupError(png.string() + ": gnuplot is missing: apt-get install gnuplot-nox");
   }
-  require_writable(png);
+  const Canvas canvas{png};
   {
-    // The shell reads what a failed gnuplot leaves unread: this process would die of SIGPIPE.
-    // Outside a UTF-8 locale, as on a bare system, gnuplot 6 warns of a degree sign of its own.
+    // The shell reads what a failed gnuplot leaves unread. Outside a UTF-8 locale, as on a bare
+    // system, gnuplot 6 warns of a degree sign of its own.
     Gnuplot gnuplot{"LC_ALL=C.UTF-8 gnuplot -d; cat >/dev/null"};
     gnuplot << "set encoding utf8\nset terminal pngcairo noenhanced font 'Sans,13' size "
-            << size.width_px << ',' << size.height_px << "\nset output "
-            << plot_text(std::filesystem::absolute(png).string()) << '\n'
+            << size.width_px << ',' << size.height_px << "\nset output " << plot_text(canvas.name())
+            << '\n'
             << script << "\nunset output\n";
   }
-  if (!is_whole_png(png)) {
-    std::error_code ignored;
-    std::filesystem::remove(png, ignored);
-    throw StartupError(png.string() + ": gnuplot could not draw it");
+  std::error_code failed;
+  if (is_whole_png(canvas.file())) {
+    std::filesystem::rename(canvas.file(), png, failed);
+    if (!failed) {
+      return;
+    }
   }
+  throw StartupError(png.string() + ": gnuplot could not draw it");
 }
 
 }  // namespace lodesman::cli

@@ -13,8 +13,8 @@ struct PictureSize {
   int height_px = 600;
 };
 
-// The script finds the terminal, the size and the output set. No temporary file is made; a
-// picture that fails leaves no file.
+// The script finds the terminal, the size and the output set. The picture takes its
+// name when it is whole; one that fails leaves no file, or the one that was there.
 void draw_picture(const std::filesystem::path& png, PictureSize size, const std::string& script);
 
 }  // namespace lodesman::cli

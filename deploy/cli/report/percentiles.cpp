@@ -20,4 +20,23 @@ Percentiles percentiles(std::vector<double> values) {
   return {.p50 = at_percent(50), .p99 = at_percent(99), .max = values.back()};
 }
 
+void PercentileSample::add(double value) {
+  if (!std::isfinite(value)) {
+    return;
+  }
+  largest_ = count_ == 0 ? value : std::max(largest_, value);
+  ++count_;
+  if (values_.size() < kMost) {
+    values_.push_back(value);
+  } else if (const std::uint64_t place = random_() % count_; place < kMost) {
+    values_[place] = value;
+  }
+}
+
+Percentiles PercentileSample::percentiles() const {
+  Percentiles result = cli::percentiles(values_);
+  result.max = largest_;
+  return result;
+}
+
 }  // namespace lodesman::cli

@@ -19,7 +19,8 @@ void draw_heading(const std::filesystem::path& png, const RunRecord& record);
 // As Fig. 12b: both thrust commands.
 void draw_thrust(const std::filesystem::path& png, const RunRecord& record);
 
-// All four, by their names in the contract, into an existing directory.
+// All four, by their names in the contract, into an existing directory. One that fails leaves the
+// others to be drawn; the first failure is thrown afterwards.
 void draw_pictures(const std::filesystem::path& directory, const RunRecord& record);
 
 }  // namespace lodesman::cli

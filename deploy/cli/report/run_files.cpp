@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/cli/report/run_files.h"
 
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string_view>
-#include <system_error>
 
 #include "deploy/cli/report/numbers.h"
 #include "mid_level/base/startup_error.h"
@@ -21,37 +18,8 @@ using Json = nlohmann::ordered_json;
 constexpr int kResultDecimals = 6;
 constexpr int kPlanDecimals = 3;
 
-class OutputFile {
- public:
-  explicit OutputFile(std::filesystem::path path) : path_{std::move(path)} {
-    errno = 0;
-    stream_.open(path_, std::ios::binary | std::ios::trunc);
-    require_good();
-  }
-  void write(std::string_view text) {
-    errno = 0;
-    stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
-    require_good();
-  }
-  // A full disk shows at the latest here.
-  void close() {
-    errno = 0;
-    stream_.close();
-    require_good();
-  }
-
- private:
-  void require_good() const {
-    if (!stream_) {
-      const int error = errno != 0 ? errno : EIO;
-      throw StartupError(path_.string() +
-                         ": cannot be written: " + std::generic_category().message(error));
-    }
-  }
-
-  std::filesystem::path path_;
-  std::ofstream stream_;
-};
+// More than result.json can take: its reasons for plans are a handful.
+constexpr std::size_t kResultRoom_bytes = 8192;
 
 Json number(double value, int decimals) {
   return std::isfinite(value) ? Json(rounded(value, decimals)) : Json(nullptr);
@@ -180,36 +148,33 @@ std::string result_json(const RunResult& result) {
   return dumped(json, 2);
 }
 
-void write_result(const std::filesystem::path& directory, const RunResult& result) {
-  OutputFile file{directory / "result.json"};
-  file.write(result_json(result));
-  file.close();
-}
-
-void write_trajectory(const std::filesystem::path& directory,
-                      const std::vector<TrajectoryRow>& rows) {
-  OutputFile file{directory / "trajectory.csv"};
-  file.write(
+RunFiles::RunFiles(const std::filesystem::path& directory)
+    : trajectory_{directory / "trajectory.csv"},
+      plans_{directory / "plans.jsonl"},
+      result_{directory / "result.json", kResultRoom_bytes} {
+  trajectory_.add(
       "t_s,x_m,y_m,heading_deg,estimate_x_m,estimate_y_m,surge_m_s,surge_ref,head_ref,"
       "thrust_left,thrust_right,id_m,plan_id,path_found,waypoint_x_m,waypoint_y_m\n");
-  for (const TrajectoryRow& row : rows) {
-    file.write(csv_line(row));
-  }
-  file.close();
 }
 
-void write_plans(const std::filesystem::path& directory, const std::vector<PlanRecord>& plans) {
-  OutputFile file{directory / "plans.jsonl"};
-  for (const PlanRecord& plan : plans) {
-    file.write(dumped(plan_json(plan), -1));
+void RunFiles::add(const TrajectoryRow& row) { trajectory_.add(csv_line(row)); }
+
+void RunFiles::add(const PlanRecord& plan) { plans_.add(dumped(plan_json(plan), -1)); }
+
+void RunFiles::finish(const RunResult& result) {
+  try {
+    result_.write(result_json(result));
+  } catch (const StartupError& error) {
+    result_fault_ = error.what();
   }
-  file.close();
+  trajectory_.flush();
+  plans_.flush();
 }
 
-void write_run_files(const std::filesystem::path& directory, const RunRecord& record) {
-  write_trajectory(directory, record.trajectory);
-  write_plans(directory, record.plans);
-  write_result(directory, record.result);
+const std::string& RunFiles::fault() const noexcept {
+  return !result_fault_.empty()         ? result_fault_
+         : !trajectory_.fault().empty() ? trajectory_.fault()
+                                        : plans_.fault();
 }
 
 }  // namespace lodesman::cli

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the text files of a run directory as the contract spells them: result.json,
-// trajectory.csv, plans.jsonl. One thread; StartupError names a file that cannot be written.
+// The text files of a run directory as the contract spells them: trajectory.csv and plans.jsonl,
+// written while the run goes on, and result.json. One thread.
 #pragma once
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
+#include "deploy/cli/report/output_file.h"
 #include "deploy/cli/report/run_record.h"
 
 namespace lodesman::cli {
@@ -14,13 +14,24 @@ namespace lodesman::cli {
 // The document of result.json and of `lodesman sim --json`, with its final line end.
 [[nodiscard]] std::string result_json(const RunResult& result);
 
-// Into an existing directory.
-void write_result(const std::filesystem::path& directory, const RunResult& result);
-void write_trajectory(const std::filesystem::path& directory,
-                      const std::vector<TrajectoryRow>& rows);
-void write_plans(const std::filesystem::path& directory, const std::vector<PlanRecord>& plans);
+class RunFiles {
+ public:
+  // Into an existing directory: begins both and keeps room for result.json. StartupError names a
+  // file that cannot be made.
+  explicit RunFiles(const std::filesystem::path& directory);
 
-// All three, result.json last: where it stands, the run directory's text is whole.
-void write_run_files(const std::filesystem::path& directory, const RunRecord& record);
+  void add(const TrajectoryRow& row);
+  void add(const PlanRecord& plan);
+  // result.json first, then whatever the two others still wait for. Once, and the last call.
+  void finish(const RunResult& result);
+  // One line that says what is not whole, the first such thing; empty as long as all is.
+  [[nodiscard]] const std::string& fault() const noexcept;
+
+ private:
+  LineFile trajectory_;
+  LineFile plans_;
+  ReservedFile result_;
+  std::string result_fault_;
+};
 
 }  // namespace lodesman::cli

@@ -90,6 +90,7 @@ struct RunResult {
   std::uint64_t plans_not_found = 0;
   std::map<std::string, std::uint64_t> plan_reasons;
   std::uint64_t side_flips = 0;
+  std::optional<double> first_side_flip_s;  // not written
   double heading_travel_deg = 0.0;
   Percentiles plan_time_us;
   Percentiles ping_to_command_us;
@@ -98,11 +99,15 @@ struct RunResult {
   double real_time_factor = 0.0;
   std::optional<std::string> recording_hash;  // lock-step only
   std::string version;
+  // Published and overwritten while nobody looked: lengths and counts above lack them. Not written.
+  std::uint64_t truths_missed = 0;
+  std::uint64_t plans_missed = 0;
   std::string fault;  // one line when the outcome is "fault"; not written otherwise
 };
 
 struct RunRecord {
   RunResult result;
+  // Of a long run some of them, see KeptRows and KeptPlans; the files have all.
   std::vector<TrajectoryRow> trajectory;
   std::vector<PlanRecord> plans;
   // What was sailed: for the pictures.

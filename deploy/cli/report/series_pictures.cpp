@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "deploy/cli/report/plot_script.h"
 #include "deploy/cli/report/plots.h"
 #include "deploy/cli/report/titles.h"
+#include "mid_level/base/startup_error.h"
 
 namespace lodesman::cli {
 namespace {
@@ -216,10 +218,22 @@ void draw_thrust(const std::filesystem::path& png, const RunRecord& record) {
 }
 
 void draw_pictures(const std::filesystem::path& directory, const RunRecord& record) {
-  draw_world(directory / "world.png", record);
-  draw_inoffensive_distance(directory / "inoffensive_distance.png", record);
-  draw_heading(directory / "heading.png", record);
-  draw_thrust(directory / "thrust.png", record);
+  using Draw = void (*)(const std::filesystem::path&, const RunRecord&);
+  std::string fault;
+  for (const auto& [draw, name] : std::initializer_list<std::pair<Draw, const char*>>{
+           {draw_world, "world.png"},
+           {draw_inoffensive_distance, "inoffensive_distance.png"},
+           {draw_heading, "heading.png"},
+           {draw_thrust, "thrust.png"}}) {
+    try {
+      draw(directory / name, record);
+    } catch (const StartupError& error) {
+      fault = fault.empty() ? error.what() : fault;
+    }
+  }
+  if (!fault.empty()) {
+    throw StartupError(fault);
+  }
 }
 
 }  // namespace lodesman::cli

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 namespace lodesman::cli {
 namespace {
@@ -89,26 +90,32 @@ PassingSide passing_side(const PlanRecord& plan, const Obstacle& obstacle) {
   return turned_rad < 0.0 ? PassingSide::kLeft : PassingSide::kRight;
 }
 
+SideFlipCounter::SideFlipCounter(std::vector<MovingObstacle> obstacles)
+    : obstacles_{std::move(obstacles)}, before_(obstacles_.size(), PassingSide::kNone) {}
+
+void SideFlipCounter::add(const PlanRecord& plan) {
+  if (plan.reason != PathReason::kFound) {
+    return;
+  }
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+    const PassingSide now = obstacles_[i].exists(plan.captured_s)
+                                ? passing_side(plan, obstacles_[i].at(plan.captured_s))
+                                : PassingSide::kNone;
+    if (now != before_[i] && now != PassingSide::kNone && before_[i] != PassingSide::kNone) {
+      ++flips_.count;
+      flips_.first_s = flips_.first_s.value_or(plan.t_s);
+    }
+    before_[i] = now;
+  }
+}
+
 SideFlips side_flips(const std::vector<PlanRecord>& plans,
                      const std::vector<MovingObstacle>& obstacles) {
-  SideFlips flips;
-  std::vector<PassingSide> before(obstacles.size(), PassingSide::kNone);
+  SideFlipCounter counter{obstacles};
   for (const PlanRecord& plan : plans) {
-    if (plan.reason != PathReason::kFound) {
-      continue;
-    }
-    for (std::size_t i = 0; i < obstacles.size(); ++i) {
-      const PassingSide now = obstacles[i].exists(plan.captured_s)
-                                  ? passing_side(plan, obstacles[i].at(plan.captured_s))
-                                  : PassingSide::kNone;
-      if (now != before[i] && now != PassingSide::kNone && before[i] != PassingSide::kNone) {
-        ++flips.count;
-        flips.first_s = flips.first_s.value_or(plan.t_s);
-      }
-      before[i] = now;
-    }
+    counter.add(plan);
   }
-  return flips;
+  return counter.flips();
 }
 
 }  // namespace lodesman::cli

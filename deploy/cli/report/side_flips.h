@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How often a vehicle changed its mind about the side on which to pass an obstacle: the paper's
-// Fig. 5a-b, and a sign of a restless planner. Pure functions; any thread.
+// Fig. 5a-b, and a sign of a restless planner. Pure functions and a plain value; any one thread.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,23 @@ struct SideFlips {
   std::optional<double> first_s;  // when the first plan on another side was published
 };
 
-// Over consecutive found plans (those without a path between them do not separate them), each
-// obstacle for itself: left to right or right to left counts, from or to kNone does not.
+// Counts while the plans come. Over consecutive found plans (those without a path between them do
+// not separate them), each obstacle for itself: left to right or right to left counts, from or to
+// kNone does not.
+class SideFlipCounter {
+ public:
+  explicit SideFlipCounter(std::vector<MovingObstacle> obstacles);
+
+  // The plans in their order.
+  void add(const PlanRecord& plan);
+  [[nodiscard]] const SideFlips& flips() const noexcept { return flips_; }
+
+ private:
+  std::vector<MovingObstacle> obstacles_;
+  std::vector<PassingSide> before_;
+  SideFlips flips_;
+};
+
 [[nodiscard]] SideFlips side_flips(const std::vector<PlanRecord>& plans,
                                    const std::vector<MovingObstacle>& obstacles);
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "deploy/cli/report/numbers.h"
 #include "deploy/cli/report/shapes.h"
-#include "deploy/cli/report/side_flips.h"
 #include "deploy/cli/report/titles.h"
 
 namespace lodesman::cli {
@@ -100,9 +100,9 @@ std::vector<Moment> story(const RunRecord& record) {
   if (const PlanRecord* first = first_plan(record.plans)) {
     add_unless_near(moments, apart_s, {.t_s = first->t_s, .caption = "first plan"});
   }
-  const SideFlips flips = side_flips(record.plans, record.obstacles);
-  if (flips.first_s) {
-    add_unless_near(moments, apart_s, {.t_s = *flips.first_s, .caption = "path changes side"});
+  const std::optional<double>& flip_s = result.first_side_flip_s;
+  if (flip_s) {
+    add_unless_near(moments, apart_s, {.t_s = *flip_s, .caption = "path changes side"});
   }
   if (const PlanRecord* none = first_without_path(record.plans)) {
     add_unless_near(moments, apart_s, {.t_s = none->t_s, .caption = no_path_caption(none->reason)});
@@ -116,8 +116,7 @@ std::vector<Moment> story(const RunRecord& record) {
   std::sort(moments.begin(), moments.end(),
             [](const Moment& a, const Moment& b) { return a.t_s < b.t_s; });
   for (Moment& moment : moments) {
-    const bool changes_side =
-        flips.first_s && !(moment.t_s < *flips.first_s) && !(moment.t_s > *flips.first_s);
+    const bool changes_side = flip_s && !(moment.t_s < *flip_s) && !(moment.t_s > *flip_s);
     find_plans(record.plans, changes_side, moment);
   }
   return moments;

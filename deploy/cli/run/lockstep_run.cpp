@@ -41,6 +41,7 @@ RunRecord run_lockstep(const LockstepRun& run) {
       run.on_plan(*board, plan, path, record);
     };
   }
+  watcher.on_row = run.on_row;
   RecordingHash hash{*board};
   const Time limit = clock.now() + kStartPatience + from_seconds(run.scenario.time_limit_s);
   Time next_show = clock.now();

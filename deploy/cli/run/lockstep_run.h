@@ -24,6 +24,8 @@ struct LockstepRun {
   std::function<void(const Blackboard&, const Plan&, const SonarPath*, const PlanRecord&)> on_plan;
   // May put others in the place of tasks, to measure them; may be empty.
   std::function<void(std::vector<TaskEntry>&)> on_tasks = {};
+  // For each row of the trajectory; may be empty.
+  std::function<void(const TrajectoryRow&)> on_row = {};
 };
 
 // The record with its hash and real-time factor.

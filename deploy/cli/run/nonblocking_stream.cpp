@@ -18,7 +18,9 @@ namespace {
 // over one another, and a disk does not make anybody wait.
 [[nodiscard]] int opened_anew(int descriptor) noexcept {
   struct stat about {};
-  if (fstat(descriptor, &about) != 0 || (!S_ISFIFO(about.st_mode) && !S_ISCHR(about.st_mode))) {
+  const bool written_to = (fcntl(descriptor, F_GETFL) & O_ACCMODE) != O_RDONLY;
+  if (!written_to || fstat(descriptor, &about) != 0 ||
+      (!S_ISFIFO(about.st_mode) && !S_ISCHR(about.st_mode))) {
     return -1;
   }
   std::string link{"/proc/self/fd/"};
@@ -40,7 +42,7 @@ NonblockingStream::~NonblockingStream() {
 // A pipe that can be written to at all takes PIPE_BUF bytes.
 bool NonblockingStream::would_block() const noexcept {
   pollfd room{descriptor_, POLLOUT, 0};
-  return poll(&room, 1, 0) == 0;
+  return descriptor_ >= 0 && poll(&room, 1, 0) == 0;
 }
 
 NonblockingStream::Written NonblockingStream::write(std::string_view text) const noexcept {

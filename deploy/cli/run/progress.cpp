@@ -2,11 +2,8 @@
 #include "deploy/cli/run/progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace lodesman::cli {
 namespace {
@@ -17,17 +14,18 @@ constexpr Duration kPlainPeriod = std::chrono::seconds{10};
 
 }  // namespace
 
-ProgressLine::ProgressLine(const Scenario& scenario, bool quiet)
+ProgressLine::ProgressLine(const Scenario& scenario, bool quiet, int descriptor)
     : name_{scenario.name},
       speed_m_s_{scenario.speed_m_s},
-      whole_way_m_{(scenario.mission.goal.xy_m - scenario.mission.start.p_WV.xy_m).norm()},
+      whole_way_m_{way_left_m(scenario.mission, 0, scenario.mission.start.p_WV)},
       quiet_{quiet},
-      terminal_{isatty(STDERR_FILENO) == 1},
+      terminal_{isatty(descriptor) == 1},
+      stream_{descriptor},
       started_{SteadyClock{}.now()} {}
 
 ProgressLine::~ProgressLine() {
   if (line_open_) {
-    std::fputc('\n', stderr);
+    write("\n");
   }
 }
 
@@ -38,33 +36,35 @@ void ProgressLine::show(const RunProgress& progress) {
     return;
   }
   last_ = now;
-  if (terminal_) {
-    fmt::print(stderr, "\r{}\x1b[K", line(progress));
-    std::fflush(stderr);
-    line_open_ = true;
-  } else {
-    fmt::print(stderr, "{}\n", line(progress));
-  }
+  write(terminal_ ? "\r" + line(progress) + "\x1b[K" : line(progress) + "\n");
+  line_open_ = terminal_;
 }
 
 void ProgressLine::say(const std::string& text) {
-  if (quiet_) {
-    return;
+  if (!quiet_) {
+    warn(text);
   }
-  fmt::print(stderr, "{}{}\n", terminal_ ? "\r\x1b[K" : "", text);
+}
+
+void ProgressLine::warn(const std::string& text) {
+  write((terminal_ ? "\r\x1b[K" : "") + text + "\n");
   line_open_ = false;
+}
+
+void ProgressLine::write(const std::string& text) {
+  failed_ = stream_.write(text) == NonblockingStream::Written::kFailed || failed_;
 }
 
 std::string ProgressLine::line(const RunProgress& progress) const {
   if (progress.state == MissionState::kIdle) {
     return fmt::format("{}  waiting for the start", name_);
   }
-  const double done = std::clamp(1.0 - progress.to_goal_m / std::max(whole_way_m_, 0.1), 0.0, 1.0);
+  const double done = std::clamp(1.0 - progress.to_go_m / std::max(whole_way_m_, 0.1), 0.0, 1.0);
   const auto filled = static_cast<std::size_t>(std::lround(done * kBarWidth));
   const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
   const double wall_s = std::max(to_seconds(SteadyClock{}.now() - started_), 0.01);
   const double rate = progress.scenario_time_s / wall_s;
-  const double left_s = progress.to_goal_m / std::max(speed_m_s_, 0.01) / std::max(rate, 0.01);
+  const double left_s = progress.to_go_m / std::max(speed_m_s_, 0.01) / std::max(rate, 0.01);
   std::string text =
       fmt::format("{}  [{}] {:5.1f} s  {:.1f}x  ~{:.0f} s left  ({:.1f}, {:.1f}) m", name_, bar,
                   progress.scenario_time_s, rate, left_s, progress.truth.x_m, progress.truth.y_m);

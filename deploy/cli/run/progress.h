@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows how far a run is: one line that is rewritten on a terminal, plain lines now and then
-// elsewhere, nothing when it is to be quiet. Standard error; one thread.
+// elsewhere, nothing when it is to be quiet. It never waits for whoever reads it, and what it
+// cannot write ends nothing. One thread.
 #pragma once
+
+#include <unistd.h>
 
 #include <string>
 
+#include "deploy/cli/run/nonblocking_stream.h"
 #include "deploy/cli/run/watcher.h"
 #include "mid_level/base/clock.h"
 
@@ -12,7 +16,7 @@ namespace lodesman::cli {
 
 class ProgressLine {
  public:
-  ProgressLine(const Scenario& scenario, bool quiet);
+  ProgressLine(const Scenario& scenario, bool quiet, int descriptor = STDERR_FILENO);
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine();  // leaves the cursor on a fresh line
@@ -20,9 +24,16 @@ class ProgressLine {
   void show(const RunProgress& progress);
   // A line of its own, which stays.
   void say(const std::string& text);
+  // The same, also for those who want quiet.
+  void warn(const std::string& text);
+  // Whether something could not be written at all. What nobody read in time does not count.
+  [[nodiscard]] bool failed() const noexcept { return failed_; }
+
+  // What show() writes, without its line end.
+  [[nodiscard]] std::string line(const RunProgress& progress) const;
 
  private:
-  [[nodiscard]] std::string line(const RunProgress& progress) const;
+  void write(const std::string& text);
 
   std::string name_;
   double speed_m_s_;
@@ -30,6 +41,8 @@ class ProgressLine {
   bool quiet_;
   bool terminal_;
   bool line_open_ = false;
+  bool failed_ = false;
+  NonblockingStream stream_;
   Time started_;
   Time last_{};
 };

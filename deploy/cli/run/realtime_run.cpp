@@ -4,10 +4,12 @@
 #include <unistd.h>
 
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "deploy/cli/run/child_process.h"
 #include "mid_level/base/clock.h"
+#include "mid_level/base/stopwatch.h"
 #include "mid_level/blackboard/segment.h"
 
 namespace lodesman::cli {
@@ -17,6 +19,7 @@ constexpr Duration kPollPeriod = std::chrono::milliseconds{20};
 constexpr Duration kShowPeriod = std::chrono::milliseconds{200};
 constexpr Duration kSegmentPatience = std::chrono::seconds{5};
 constexpr Duration kStopPatience = std::chrono::seconds{2};
+constexpr double kSilence_s = 1.0;  // so far scenario time may lag behind this program's own
 
 // Both processes and the name they share. High is stopped first, so that its last word is heard.
 class TwoProcesses {
@@ -41,12 +44,16 @@ class TwoProcesses {
 
   [[nodiscard]] const std::string& segment() const noexcept { return segment_; }
 
-  // Which one died, and how; empty while both run.
-  [[nodiscard]] std::string fault() {
+  // Which one died, and how; empty while both run. Throws StartupError where it is a refusal.
+  [[nodiscard]] std::string fault(bool starting) {
     for (auto* child : {low_.get(), high_.get()}) {
-      if (child->ended()) {
-        return child->name() + " died: " + *child->ended();
+      if (!child->ended()) {
+        continue;
       }
+      if (starting && child->exit_status() == kExitRefused) {
+        throw StartupError(child->name() + " has refused to start");
+      }
+      return child->name() + " died: " + *child->ended();
     }
     return {};
   }
@@ -63,62 +70,60 @@ class TwoProcesses {
   std::unique_ptr<ChildProcess> high_;
 };
 
-// Waits for the segment as long as both processes live.
-[[nodiscard]] SharedBlackboard observe(TwoProcesses& processes) {
+// Waits for the segment as long as both processes live; without one `fault` says why, unless it
+// was an interrupt.
+[[nodiscard]] std::optional<SharedBlackboard> observe(TwoProcesses& processes,
+                                                      const std::function<bool()>& interrupted,
+                                                      std::string& fault) {
   const SteadyClock clock;
   const Time deadline = clock.now() + kSegmentPatience;
-  for (;;) {
+  while (!interrupted()) {
     try {
       return SharedBlackboard::observe(processes.segment(), Duration::zero());
     } catch (const StartupError& error) {
-      if (const std::string fault = processes.fault(); !fault.empty()) {
-        throw StartupError(fault);
+      fault = processes.fault(true);
+      if (fault.empty() && clock.now() >= deadline) {
+        fault = error.what();
       }
-      if (clock.now() >= deadline) {
-        throw;
+      if (!fault.empty()) {
+        break;
       }
     }
     std::this_thread::sleep_for(kPollPeriod);
   }
+  return std::nullopt;
 }
 
-}  // namespace
-
-RunRecord run_realtime(const RealtimeRun& run) {
-  TwoProcesses processes{run};
-  const SharedBlackboard board = observe(processes);
-  const HighLevelOptions options = high_level_options(run.configuration, run.scenario);
-  RunWatcher watcher{*board, with_planned_zones(run.scenario, options),
-                     options.controller.waypoint_radius_m};
-  if (run.on_plan) {
-    watcher.on_plan = [&](const Plan& plan, const SonarPath* path, const PlanRecord& record) {
-      run.on_plan(*board, plan, path, record);
-    };
-  }
+// Watches until the run is over; gives the fault that ended it, if one did.
+[[nodiscard]] std::string watch(const RealtimeRun& run, TwoProcesses& processes,
+                                RunWatcher& watcher) {
   const SteadyClock clock;
-  const Time started = clock.now();
-  Time next_show = started;
-  std::string fault;
-  while (fault.empty() && !watcher.mission_ended() && !run.interrupted()) {
+  const double limit_s = run.scenario.time_limit_s;
+  Time next_show = clock.now();
+  while (!watcher.mission_ended() && !run.interrupted()) {
     std::this_thread::sleep_for(kPollPeriod);
     watcher.poll();
-    fault = processes.fault();
     const RunProgress progress = watcher.progress();
-    if (!fault.empty() && progress.state == MissionState::kIdle) {
-      throw StartupError(fault);  // it refused to start, and has said why
+    if (std::string fault = processes.fault(progress.state == MissionState::kIdle);
+        !fault.empty()) {
+      return fault;
     }
-    if (progress.scenario_time_s >= run.scenario.time_limit_s) {
+    if (progress.scenario_time_s >= limit_s) {
       break;
+    }
+    const Time started = watcher.mission_started();
+    if (started != Time{} && to_seconds(clock.now() - started) > limit_s + kSilence_s) {
+      return "lodesman-low has fallen silent";
     }
     if (clock.now() >= next_show) {
       next_show = clock.now() + kShowPeriod;
       run.show(progress);
     }
   }
-  const double took_s = to_seconds(clock.now() - started);
-  processes.stop();
-  watcher.poll();
-  RunRecord record = watcher.finish();
+  return {};
+}
+
+[[nodiscard]] RunRecord finished(RunRecord record, double took_s, const std::string& fault) {
   record.result.mode = "realtime";
   record.result.real_time_factor = took_s > 0.0 ? record.result.time_s / took_s : 0.0;
   if (!fault.empty()) {
@@ -126,6 +131,32 @@ RunRecord run_realtime(const RealtimeRun& run) {
     record.result.outcome = "fault";
   }
   return record;
+}
+
+}  // namespace
+
+RunRecord run_realtime(const RealtimeRun& run) {
+  TwoProcesses processes{run};
+  const HighLevelOptions options = high_level_options(run.configuration, run.scenario);
+  const Scenario planned = with_planned_zones(run.scenario, options);
+  std::string fault;
+  const auto board = observe(processes, run.interrupted, fault);
+  if (!board) {
+    return finished(blank_record(planned, options.controller.waypoint_radius_m), 0.0, fault);
+  }
+  RunWatcher watcher{**board, planned, options.controller.waypoint_radius_m};
+  watcher.on_row = run.on_row;
+  if (run.on_plan) {
+    watcher.on_plan = [&](const Plan& plan, const SonarPath* path, const PlanRecord& record) {
+      run.on_plan(**board, plan, path, record);
+    };
+  }
+  const Stopwatch stopwatch;
+  fault = watch(run, processes, watcher);
+  const double took_s = to_seconds(stopwatch.elapsed());
+  processes.stop();
+  watcher.poll();
+  return finished(watcher.finish(), took_s, fault);
 }
 
 }  // namespace lodesman::cli

@@ -20,9 +20,12 @@ struct RealtimeRun {
   const std::function<bool()>& interrupted;
   const std::function<void(const RunProgress&)>& show;
   std::function<void(const Blackboard&, const Plan&, const SonarPath*, const PlanRecord&)> on_plan;
+  // For each row of the trajectory; may be empty.
+  std::function<void(const TrajectoryRow&)> on_row = {};
 };
 
-// A process that dies is named in the record's `fault`, and the other one is stopped.
+// A process that dies or falls silent is named in the record's `fault`, and the other one is
+// stopped. Throws StartupError where a process refuses what it was given, and has said so.
 [[nodiscard]] RunRecord run_realtime(const RealtimeRun& run);
 
 }  // namespace lodesman::cli

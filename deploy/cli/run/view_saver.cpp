@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "deploy/cli/report/output_file.h"
 #include "low_level/sonar/view_image.h"
 #include "mid_level/base/startup_error.h"
 
@@ -41,11 +42,14 @@ void ViewSaver::save(const Blackboard& board, const Plan& plan, const SonarPath*
                          Heading::clockwise_from_y_rad(plan.pose_heading_rad)};
   picture.goal = pose.to_vehicle({{plan.goal_x_m, plan.goal_y_m}});
   picture.caption = caption;
-  const auto file = directory_ / fmt::format("{:06}.jpg", saved_);
-  if (!save_jpeg(file, picture)) {
-    throw StartupError(file.string() + ": cannot be written");
+  const std::vector<std::uint8_t> bytes = encode_view(picture, ViewFormat::kJpeg);
+  const std::string text{bytes.begin(), bytes.end()};
+  try {
+    write_whole_file(directory_ / fmt::format("{:06}.jpg", saved_), text);
+    ++saved_;
+  } catch (const StartupError& error) {
+    fault_ = fault_.empty() ? error.what() : fault_;
   }
-  ++saved_;
 }
 
 }  // namespace lodesman::cli

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "deploy/cli/report/run_record.h"
 #include "mid_level/blackboard/blackboard.h"
@@ -15,11 +16,13 @@ class ViewSaver {
   // Into <run directory>/sonar, which it makes.
   ViewSaver(const std::filesystem::path& run_directory, Duration period, double range_m);
 
-  // Saves the view of this plan if one is due. `path` may be nullptr.
+  // Saves the view of this plan if one is due. `path` may be nullptr. A view that cannot be written
+  // is left out: nobody's mission ends for a picture.
   void save(const Blackboard& board, const Plan& plan, const SonarPath* path,
             const PlanRecord& record);
 
-  [[nodiscard]] int saved() const noexcept { return saved_; }
+  // One line that says why the first of those was left out; empty as long as none was.
+  [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
 
  private:
   std::filesystem::path directory_;
@@ -27,6 +30,7 @@ class ViewSaver {
   double range_m_;
   Time due_{};
   int saved_ = 0;
+  std::string fault_;
 };
 
 }  // namespace lodesman::cli

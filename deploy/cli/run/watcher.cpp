@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "deploy/cli/report/percentiles.h"
-#include "deploy/cli/report/side_flips.h"
 #include "mid_level/base/frames.h"
 #include "mid_level/messages/sonar_view.h"
 
@@ -19,33 +17,54 @@ constexpr double kRowPeriod_s = 0.1;
          reason == HelmReason::kStaleMission;
 }
 
-void keep_least(std::optional<double>& least, double value) noexcept {
-  if (std::isfinite(value) && (!least || value < *least)) {
-    least = value;
-  }
+[[nodiscard]] std::optional<double> if_finite(double value) noexcept {
+  return std::isfinite(value) ? std::optional{value} : std::nullopt;
+}
+
+[[nodiscard]] std::array<double, 2> metres(const WorldPoint& p) noexcept {
+  return {p.xy_m.x(), p.xy_m.y()};
 }
 
 }  // namespace
 
+RunRecord blank_record(const Scenario& scenario, double waypoint_radius_m) {
+  RunRecord record;
+  record.start_m = metres(scenario.mission.start.p_WV);
+  record.goal_m = metres(scenario.mission.goal);
+  record.goal_radius_m = scenario.mission.goal_radius_m;
+  record.vehicle_radius_m = scenario.vehicle_radius_m;
+  record.waypoint_radius_m = waypoint_radius_m;
+  record.obstacles = scenario.obstacles;
+  record.result.final_m = record.start_m;
+  record.result.goal_error_m =
+      (scenario.mission.goal.xy_m - scenario.mission.start.p_WV.xy_m).norm();
+  return record;
+}
+
+double way_left_m(const ScenarioMission& mission, std::size_t goal_index, const WorldPoint& from) {
+  double left_m = 0.0;
+  WorldPoint at = from;
+  for (std::size_t i = goal_index; i < mission.waypoints.size(); ++i) {
+    left_m += (mission.waypoints[i].xy_m - at.xy_m).norm();
+    at = mission.waypoints[i];
+  }
+  return left_m + (mission.goal.xy_m - at.xy_m).norm();
+}
+
 RunWatcher::RunWatcher(const Blackboard& board, const Scenario& scenario, double waypoint_radius_m)
     : scenario_{scenario},
+      record_{blank_record(scenario, waypoint_radius_m)},
       mission_{board.mission_status},
       truth_{board.world_truth},
       state_{board.vehicle_state},
       helm_{board.helm_command},
       thrust_{board.thrust_applied},
       plan_{board.plan},
-      path_{board.sonar_path} {
+      path_{board.sonar_path},
+      side_flips_{scenario.obstacles} {
   for (const auto& channel : board.task_health) {
     health_.emplace_back(channel);
   }
-  const auto& mission = scenario.mission;
-  record_.start_m = {mission.start.p_WV.xy_m.x(), mission.start.p_WV.xy_m.y()};
-  record_.goal_m = {mission.goal.xy_m.x(), mission.goal.xy_m.y()};
-  record_.goal_radius_m = mission.goal_radius_m;
-  record_.vehicle_radius_m = scenario.vehicle_radius_m;
-  record_.waypoint_radius_m = waypoint_radius_m;
-  record_.obstacles = scenario.obstacles;
 }
 
 void RunWatcher::poll() {
@@ -82,7 +101,7 @@ void RunWatcher::take_commands() {
     if (applied_.reason == ThrustReason::kCommanded && applied_.plan_id > answered_plan_) {
       answered_plan_ = applied_.plan_id;
       if (applied_.plan_captured != Time{}) {
-        ping_to_command_us_.push_back(to_seconds(thrust->stamp - applied_.plan_captured) * 1e6);
+        ping_to_command_us_.add(to_seconds(thrust->stamp - applied_.plan_captured) * 1e6);
       }
     }
   }
@@ -99,17 +118,21 @@ void RunWatcher::take_plans() {
     ++(record.reason == PathReason::kFound ? record_.result.plans_found
                                            : record_.result.plans_not_found);
     ++record_.result.plan_reasons[to_string(record.reason)];
-    plan_times_us_.push_back(record.plan_time_us);
+    plan_times_us_.add(record.plan_time_us);
+    const bool never_flipped = !side_flips_.flips().first_s;
+    side_flips_.add(record);
     last_plan_ = record;
     last_plan_->path_m.clear();
-    record_.plans.push_back(std::move(record));
+    plans_.add(std::move(record), never_flipped && side_flips_.flips().first_s);
   }
+  record_.result.plans_missed = plan_.missed();
 }
 
 void RunWatcher::take_truth() {
   while (const auto* truth = truth_.next()) {
     add_truth(*truth);
   }
+  record_.result.truths_missed = truth_.missed();
   if (status_.ended != Time{} && !ended_ && status_.started != Time{}) {
     end_at_truth();
   }
@@ -130,15 +153,25 @@ void RunWatcher::add_truth(const Stamped<WorldTruth>& truth) {
   }
   last_truth_ = now;
   result.time_s = now.scenario_time_s;
-  const auto least_before = result.min_inoffensive_distance_m;
-  keep_least(result.min_inoffensive_distance_m, now.inoffensive_distance_m);
-  if (result.min_inoffensive_distance_m != least_before) {
-    result.time_of_min_inoffensive_distance_s = now.scenario_time_s;
-  }
-  keep_least(result.min_hull_clearance_m, now.hull_clearance_m);
+  take_the_least(now);
   if (now.scenario_time_s >= next_row_s_ - 1e-6) {
     add_row(now);
     next_row_s_ += kRowPeriod_s;
+  }
+}
+
+// The world has kept it, so it is right whatever was overwritten before it was read.
+void RunWatcher::take_the_least(const WorldTruth& truth) {
+  RunResult& result = record_.result;
+  const auto nearest_at_s = result.time_of_min_inoffensive_distance_s;
+  result.min_hull_clearance_m = if_finite(truth.least_hull_clearance_m);
+  result.min_inoffensive_distance_m = if_finite(truth.least_inoffensive_distance_m);
+  result.time_of_min_inoffensive_distance_s = std::nullopt;
+  if (result.min_inoffensive_distance_m) {
+    result.time_of_min_inoffensive_distance_s = truth.least_inoffensive_distance_at_s;
+  }
+  if (result.time_of_min_inoffensive_distance_s != nearest_at_s) {
+    plans_.mark_closest();
   }
 }
 
@@ -165,7 +198,10 @@ void RunWatcher::add_row(const WorldTruth& truth) {
   row.path_found = last_plan_ && last_plan_->reason == PathReason::kFound;
   row.waypoint_x_m = command_.waypoint_x_m;
   row.waypoint_y_m = command_.waypoint_y_m;
-  record_.trajectory.push_back(row);
+  rows_.add(row);
+  if (on_row) {
+    on_row(row);
+  }
 }
 
 // The truth at the instant that the mission ended, which was published a little earlier.
@@ -255,8 +291,8 @@ RunProgress RunWatcher::progress() const {
   if (last_truth_) {
     progress.truth = *last_truth_;
     progress.scenario_time_s = last_truth_->scenario_time_s;
-    progress.to_goal_m =
-        std::hypot(record_.goal_m[0] - last_truth_->x_m, record_.goal_m[1] - last_truth_->y_m);
+    progress.to_go_m =
+        way_left_m(scenario_.mission, status_.goal_index, {{last_truth_->x_m, last_truth_->y_m}});
   }
   progress.last_plan = last_plan_;
   return progress;
@@ -279,14 +315,19 @@ RunRecord RunWatcher::finish() {
                    : status_.state == MissionState::kAborted ? "aborted"
                    : is_holding()                            ? "held"
                                                              : "time_limit";
-  const WorldTruth truth = last_truth_.value_or(WorldTruth{});
-  result.final_m = {truth.x_m, truth.y_m};
-  result.goal_error_m = std::hypot(truth.x_m - record_.goal_m[0], truth.y_m - record_.goal_m[1]);
-  result.estimate_error_m = std::hypot(truth.x_m - estimate_.x_m, truth.y_m - estimate_.y_m);
+  if (last_truth_) {
+    const WorldTruth& truth = *last_truth_;
+    result.final_m = {truth.x_m, truth.y_m};
+    result.goal_error_m = std::hypot(truth.x_m - record_.goal_m[0], truth.y_m - record_.goal_m[1]);
+    result.estimate_error_m = std::hypot(truth.x_m - estimate_.x_m, truth.y_m - estimate_.y_m);
+  }
   result.mean_speed_m_s = result.time_s > 0.0 ? result.path_length_m / result.time_s : 0.0;
-  result.side_flips = side_flips(record_.plans, record_.obstacles).count;
-  result.plan_time_us = percentiles(plan_times_us_);
-  result.ping_to_command_us = percentiles(ping_to_command_us_);
+  result.side_flips = side_flips_.flips().count;
+  result.first_side_flip_s = side_flips_.flips().first_s;
+  result.plan_time_us = plan_times_us_.percentiles();
+  result.ping_to_command_us = ping_to_command_us_.percentiles();
+  record_.trajectory = rows_.rows();
+  record_.plans = plans_.plans();
   return record_;
 }
 

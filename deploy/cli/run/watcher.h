@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Looks on at a run over the blackboard and keeps its record: the same for two processes in real
-// time and for lock-step. One thread; it writes nothing that the boat reads.
+// time and for lock-step, in memory that a long run does not fill. One thread; it writes nothing
+// that the boat reads.
 #pragma once
 
 #include <deque>
@@ -8,7 +9,10 @@
 #include <optional>
 #include <vector>
 
+#include "deploy/cli/report/kept_run.h"
+#include "deploy/cli/report/percentiles.h"
 #include "deploy/cli/report/run_record.h"
+#include "deploy/cli/report/side_flips.h"
 #include "hal_sim/world/scenario.h"
 #include "mid_level/blackboard/blackboard.h"
 
@@ -18,22 +22,33 @@ namespace lodesman::cli {
 struct RunProgress {
   MissionState state = MissionState::kIdle;
   double scenario_time_s = 0.0;
-  double to_goal_m = 0.0;
+  double to_go_m = 0.0;  // along the waypoints that are left, to the goal
   WorldTruth truth;
   std::optional<PlanRecord> last_plan;  // without its path
 };
+
+// What is known of a run before anything has happened.
+[[nodiscard]] RunRecord blank_record(const Scenario& scenario, double waypoint_radius_m);
+
+// [m] from a place through the mission's waypoints from `goal_index` on to its goal.
+[[nodiscard]] double way_left_m(const ScenarioMission& mission, std::size_t goal_index,
+                                const WorldPoint& from);
 
 class RunWatcher {
  public:
   RunWatcher(const Blackboard& board, const Scenario& scenario, double waypoint_radius_m);
 
-  // Takes in everything published since the last call; to be called at least once a second.
+  // Takes in everything published since the last call; to be called at least once a second. A call
+  // that comes later costs samples, which are counted, but never the nearest distance.
   void poll();
 
   [[nodiscard]] bool mission_ended() const noexcept;  // reached or aborted
+  [[nodiscard]] Time mission_started() const noexcept { return status_.started; }  // 0 before
   [[nodiscard]] RunProgress progress() const;
   // Called for each plan, with the answer of PathFinder that it was made from (or nullptr).
   std::function<void(const Plan&, const SonarPath*, const PlanRecord&)> on_plan;
+  // Called for each row of the trajectory, ten a second.
+  std::function<void(const TrajectoryRow&)> on_row;
 
   // The record as it stands. Names, mode, hash and factor are the caller's to fill in.
   [[nodiscard]] RunRecord finish();
@@ -45,6 +60,7 @@ class RunWatcher {
   void take_plans();
   void take_health();
   void add_truth(const Stamped<WorldTruth>& truth);
+  void take_the_least(const WorldTruth& truth);
   void add_row(const WorldTruth& truth);
   [[nodiscard]] const SonarPath* answer_to(const Plan& plan);
   [[nodiscard]] PlanRecord describe(const Stamped<Plan>& plan, const SonarPath* path) const;
@@ -76,8 +92,11 @@ class RunWatcher {
   bool ended_ = false;
   std::uint64_t answered_plan_ = 0;  // newest plan whose first command was timed
   bool was_stale_ = false;
-  std::vector<double> plan_times_us_;
-  std::vector<double> ping_to_command_us_;
+  KeptRows rows_;
+  KeptPlans plans_;
+  SideFlipCounter side_flips_;
+  PercentileSample plan_times_us_;
+  PercentileSample ping_to_command_us_;
 };
 
 }  // namespace lodesman::cli

@@ -46,3 +46,24 @@ TEST_CASE("percentiles: a value that is not finite is left out", "[report]") {
   CHECK(p.p50 == Approx(1.0));
   CHECK(p.max == Approx(2.0));
 }
+
+TEST_CASE("percentiles: of more than can be kept the sample is near and its largest exact",
+          "[report]") {
+  cli::PercentileSample sample;
+  std::vector<double> all;
+  constexpr std::uint64_t kCount = 4 * cli::PercentileSample::kMost;
+  for (std::uint64_t i = 0; i < kCount; ++i) {
+    const double value = static_cast<double>(i * 7919 % kCount);
+    sample.add(value);
+    all.push_back(value);
+    if (i == cli::PercentileSample::kMost - 1) {
+      CHECK(sample.percentiles().p99 == Approx(cli::percentiles(all).p99).margin(0.0));
+    }
+  }
+  const auto exact = cli::percentiles(all);
+  const auto sampled = sample.percentiles();
+  CHECK(sampled.p50 == Approx(exact.p50).epsilon(0.02));
+  CHECK(sampled.p99 == Approx(exact.p99).epsilon(0.01));
+  CHECK(sampled.max == Approx(exact.max).margin(0.0));
+  CHECK(cli::PercentileSample{}.percentiles().max == Approx(0.0).margin(0.0));
+}

@@ -122,6 +122,15 @@ TEST_CASE("pictures: a file that cannot be written or drawn is named, none is le
   CHECK_FALSE(std::filesystem::exists(broken));
 }
 
+TEST_CASE("pictures: any name of a file is that file's", "[report]") {
+  const testing::TemporaryDirectory directory;
+  const auto png = directory.path() / "a\nset output; 'b\" `c`\\.png";
+  cli::draw_picture(png, {}, "plot x");
+  CHECK(is_png(png));
+  CHECK(std::distance(std::filesystem::directory_iterator{directory.path()},
+                      std::filesystem::directory_iterator{}) == 1);
+}
+
 TEST_CASE("story: four moments tell of first plan, new side, no path and end", "[report]") {
   const cli::RunRecord run = testing::static_run();
   const auto moments = cli::story(run);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/cli/report/run_files.h"
 
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -35,6 +39,32 @@ std::vector<std::string> keys_of(const Json& json) {
   }
   return keys;
 }
+
+std::vector<std::string> names_in(const std::filesystem::path& directory) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator{directory}) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// For this process, as long as it stands.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
 
 const std::vector<std::string> kResultKeys{"scenario",
                                            "profile",
@@ -145,7 +175,11 @@ TEST_CASE("trajectory.csv: the contract's header, fixed decimals, no infinity", 
   cli::TrajectoryRow near = row;
   near.id_m = 2.44;
   near.path_found = true;
-  cli::write_trajectory(directory.path(), {row, near});
+  {
+    cli::RunFiles files{directory.path()};
+    files.add(row);
+    files.add(near);
+  }
   const auto lines = lines_of(directory.path() / "trajectory.csv");
   REQUIRE(lines.size() == 3);
   CHECK(lines[0] ==
@@ -161,7 +195,12 @@ TEST_CASE("trajectory.csv: the contract's header, fixed decimals, no infinity", 
 TEST_CASE("plans.jsonl: a line a plan, null cost where no path was found", "[report]") {
   const testing::TemporaryDirectory directory;
   const cli::RunRecord run = testing::static_run();
-  cli::write_plans(directory.path(), run.plans);
+  {
+    cli::RunFiles files{directory.path()};
+    for (const cli::PlanRecord& plan : run.plans) {
+      files.add(plan);
+    }
+  }
   const auto lines = lines_of(directory.path() / "plans.jsonl");
   REQUIRE(lines.size() == run.plans.size());
   bool has_found = false;
@@ -202,37 +241,89 @@ TEST_CASE("plans.jsonl: a line a plan, null cost where no path was found", "[rep
 
 TEST_CASE("run files: an empty run leaves three whole files", "[report]") {
   const testing::TemporaryDirectory directory;
-  cli::write_run_files(directory.path(), {});
+  cli::RunFiles files{directory.path()};
+  files.finish({});
+  CHECK(files.fault().empty());
   CHECK(lines_of(directory.path() / "trajectory.csv").size() == 1);
   CHECK(lines_of(directory.path() / "plans.jsonl").empty());
   std::ifstream file{directory.path() / "result.json"};
   CHECK(Json::parse(file).is_object());
+  CHECK(names_in(directory.path()) ==
+        std::vector<std::string>{"plans.jsonl", "result.json", "trajectory.csv"});
 }
 
-TEST_CASE("run files: a file that cannot be written is named in one line", "[report]") {
+TEST_CASE("run files: lines stand in their files while the run goes on", "[report]") {
+  const testing::TemporaryDirectory directory;
+  cli::RunFiles files{directory.path()};
+  // More than is kept back.
+  for (int i = 0; i < 2000; ++i) {
+    files.add(cli::TrajectoryRow{});
+    files.add(cli::PlanRecord{});
+  }
+  CHECK(lines_of(directory.path() / "trajectory.csv").size() > 500);
+  CHECK(lines_of(directory.path() / "plans.jsonl").size() > 1500);
+  CHECK_FALSE(std::filesystem::exists(directory.path() / "result.json"));
+}
+
+TEST_CASE("run files: a file that cannot be made is named in one line", "[report]") {
   const testing::TemporaryDirectory directory;
   const auto missing = directory.path() / "missing";
-  const auto message_of = [](const auto& write) -> std::string {
-    try {
-      write();
-    } catch (const StartupError& error) {
-      return error.what();
-    }
-    return {};
-  };
-  CHECK(message_of([&] { cli::write_result(missing, {}); }) ==
-        (missing / "result.json").string() + ": cannot be written: No such file or directory");
+  CHECK_THROWS_WITH(cli::RunFiles{missing}, (missing / "trajectory.csv").string() +
+                                                ": cannot be written: No such file or directory");
+}
 
-  // A device that is always full.
+TEST_CASE("run files: on a full device the result still stands and the first loss is named",
+          "[report]") {
+  const testing::TemporaryDirectory directory;
   std::filesystem::create_symlink("/dev/full", directory.path() / "trajectory.csv");
-  std::filesystem::create_symlink("/dev/full", directory.path() / "plans.jsonl");
-  const std::vector<cli::TrajectoryRow> many(2000);
-  for (const auto& rows : {many, std::vector<cli::TrajectoryRow>{}}) {
-    CHECK(message_of([&] { cli::write_trajectory(directory.path(), rows); }) ==
-          (directory.path() / "trajectory.csv").string() +
-              ": cannot be written: No space left on device");
+  cli::RunFiles files{directory.path()};
+  files.add(cli::PlanRecord{});
+  files.finish({});
+  CHECK(files.fault() == (directory.path() / "trajectory.csv").string() +
+                             ": cannot be written: No space left on device");
+  CHECK(lines_of(directory.path() / "plans.jsonl").size() == 1);
+  std::ifstream file{directory.path() / "result.json"};
+  CHECK(Json::parse(file).is_object());
+}
+
+TEST_CASE("whole file: what cannot be written leaves what was there", "[report]") {
+  const testing::TemporaryDirectory directory;
+  const auto path = directory.path() / "a";
+  cli::write_whole_file(path, "old");
+  {
+    const FileSizeLimit limit{4};
+    CHECK_THROWS_WITH(cli::write_whole_file(path, "newer than that"),
+                      path.string() + ": cannot be written: File too large");
   }
-  CHECK(message_of([&] { cli::write_plans(directory.path(), {cli::PlanRecord{}}); }) ==
-        (directory.path() / "plans.jsonl").string() +
-            ": cannot be written: No space left on device");
+  CHECK(lines_of(path) == std::vector<std::string>{"old"});
+  cli::write_whole_file(path, "new");
+  CHECK(lines_of(path) == std::vector<std::string>{"new"});
+  CHECK(names_in(directory.path()) == std::vector<std::string>{"a"});
+}
+
+TEST_CASE("reserved file: its room is there when all other room is gone", "[report]") {
+  const testing::TemporaryDirectory directory;
+  const auto path = directory.path() / "a";
+  cli::ReservedFile reserved{path, 4096};
+  CHECK(std::filesystem::file_size(cli::unfinished(path)) == 4096);
+  CHECK_FALSE(std::filesystem::exists(path));
+  reserved.write("text\n");
+  CHECK(lines_of(path) == std::vector<std::string>{"text"});
+  CHECK(std::filesystem::file_size(path) == 5);
+}
+
+TEST_CASE("line file: it ends after a whole line where the disk is full", "[report]") {
+  const testing::TemporaryDirectory directory;
+  const auto path = directory.path() / "a";
+  const FileSizeLimit limit{50};
+  cli::LineFile file{path};
+  for (int i = 0; i < 10; ++i) {
+    file.add("twelve signs\n");
+  }
+  file.flush();
+  CHECK(file.fault() == path.string() + ": cannot be written: File too large");
+  CHECK(std::filesystem::file_size(path) == 39);
+  file.add("no more of it\n");
+  file.flush();
+  CHECK(std::filesystem::file_size(path) == 39);
 }

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "deploy/cli/report/side_flips.h"
+
 namespace lodesman::testing {
 namespace {
 
@@ -103,6 +105,7 @@ void finish(RunRecord& run, const std::string& name) {
   result.outcome = "goal";
   result.reached = true;
   result.time_s = run.trajectory.back().t_s;
+  result.first_side_flip_s = cli::side_flips(run.plans, run.obstacles).first_s;
   for (const TrajectoryRow& row : run.trajectory) {
     if (std::isfinite(row.id_m) && row.id_m < result.min_inoffensive_distance_m.value_or(1e9)) {
       result.min_inoffensive_distance_m = row.id_m;
