@@ -65,6 +65,16 @@ namespace {
   return {"shared_memory", Verdict::kOk, space, ""};
 }
 
+[[nodiscard]] Finding judge_leftovers(const MachineFacts& facts) {
+  if (facts.dead_segments.empty()) {
+    return {"leftovers", Verdict::kOk, "no segment of a killed boat lies in /dev/shm", ""};
+  }
+  return {"leftovers", Verdict::kWarn,
+          fmt::format("killed boats have left {} segments of {} in /dev/shm",
+                      facts.dead_segments.size(), mib(facts.segment_bytes)),
+          fmt::format("rm /dev/shm/{}", fmt::join(facts.dead_segments, " /dev/shm/"))};
+}
+
 [[nodiscard]] Finding judge_gnuplot(const MachineFacts& facts) {
   if (facts.gnuplot) {
     return {"gnuplot", Verdict::kOk, "is installed", ""};
@@ -134,6 +144,7 @@ std::vector<Finding> judge(const MachineFacts& facts) {
   return {judge_fifo(facts),
           judge_lock(facts),
           judge_shm(facts),
+          judge_leftovers(facts),
           judge_gnuplot(facts),
           judge_configuration(facts),
           judge_programs(facts),

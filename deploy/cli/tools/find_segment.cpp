@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/cli/tools/find_segment.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 
 #include "mid_level/base/startup_error.h"
+#include "mid_level/blackboard/segment.h"
 
 namespace lodesman::cli {
 namespace {
@@ -14,6 +19,21 @@ namespace {
     text += (text.empty() ? "" : ", ") + name;
   }
   return text;
+}
+
+// Programs lock the segment that they hold (ADR 0002); to ask, reading is enough.
+[[nodiscard]] bool is_dead(const std::filesystem::path& segment) {
+  const int file = open(segment.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  struct stat about {};
+  struct flock any {};
+  any.l_type = F_WRLCK;
+  any.l_whence = SEEK_SET;
+  const bool dead = file >= 0 && fstat(file, &about) == 0 && about.st_uid == geteuid() &&
+                    fcntl(file, F_OFD_GETLK, &any) == 0 && any.l_type == F_UNLCK;
+  if (file >= 0) {
+    close(file);
+  }
+  return dead;
 }
 
 }  // namespace
@@ -29,6 +49,20 @@ std::vector<std::string> segments_in(const std::filesystem::path& directory) {
   }
   std::sort(names.begin(), names.end());
   return names;
+}
+
+std::vector<std::string> dead_segments_in(const std::filesystem::path& directory) {
+  std::vector<std::string> names = segments_in(directory);
+  std::erase_if(names, [&](const std::string& name) { return !is_dead(directory / name); });
+  return names;
+}
+
+void remove_dead_runs() {
+  for (const std::string& name : dead_segments_in("/dev/shm")) {
+    if (name.starts_with("lodesman-sim-")) {
+      remove_dead_segment(name);  // asks again, and holds it meanwhile
+    }
+  }
 }
 
 std::string choose_segment(const std::string& named, const std::vector<std::string>& found,

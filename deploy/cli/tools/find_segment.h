@@ -17,4 +17,10 @@ namespace lodesman::cli {
                                          const std::vector<std::string>& found,
                                          const std::vector<std::string>& alive);
 
+// Those of them that no living program holds, of this user's: somebody was killed and left them.
+[[nodiscard]] std::vector<std::string> dead_segments_in(const std::filesystem::path& directory);
+
+// Removes what killed simulated runs have left in /dev/shm, and of no other boat.
+void remove_dead_runs();
+
 }  // namespace lodesman::cli

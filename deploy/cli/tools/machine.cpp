@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "deploy/cli/run/settings.h"
+#include "deploy/cli/tools/find_segment.h"
 #include "mid_level/blackboard/segment.h"
 #include "mid_level/runtime/task_table.h"
 
@@ -78,6 +79,7 @@ void measure_lock(MachineFacts& facts) {
 }
 
 void measure_shm(MachineFacts& facts) {
+  facts.dead_segments = dead_segments_in("/dev/shm");
   struct statvfs space {};
   if (statvfs("/dev/shm", &space) == 0) {
     facts.shm_free_bytes = std::uint64_t{space.f_bavail} * space.f_frsize;

@@ -26,6 +26,7 @@ struct MachineFacts {
   bool shm_writable = false;  // tried
   std::uint64_t shm_free_bytes = 0;
   std::uint64_t segment_bytes = 0;
+  std::vector<std::string> dead_segments;  // in /dev/shm, of programs that were killed
 
   bool gnuplot = false;
 

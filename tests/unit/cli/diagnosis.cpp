@@ -45,6 +45,18 @@ TEST_CASE("doctor: nothing is wrong with a healthy machine", "[cli]") {
   }
 }
 
+TEST_CASE("doctor: what killed boats have left is named with the command that removes it",
+          "[cli]") {
+  MachineFacts facts = healthy();
+  CHECK(finding(facts, "leftovers").verdict == Verdict::kOk);
+  facts.dead_segments = {"lodesman-sim-7", "lodesman-boat"};
+  CHECK_FALSE(any_bad(judge(facts)));
+  CHECK(finding(facts, "leftovers").verdict == Verdict::kWarn);
+  CHECK(finding(facts, "leftovers").what ==
+        "killed boats have left 2 segments of 4 MiB in /dev/shm");
+  CHECK(finding(facts, "leftovers").remedy == "rm /dev/shm/lodesman-sim-7 /dev/shm/lodesman-boat");
+}
+
 TEST_CASE("doctor: what only makes a run worse is a warning", "[cli]") {
   MachineFacts facts = healthy();
   facts.fifo_allowed = false;
@@ -85,7 +97,7 @@ TEST_CASE("doctor: this machine can be measured", "[cli]") {
   REQUIRE(facts.segment_bytes > kMiB);
   REQUIRE(facts.lock_needed_bytes > facts.segment_bytes);
   REQUIRE(facts.configuration_error.empty());
-  REQUIRE(judge(facts).size() == 8);
+  REQUIRE(judge(facts).size() == 9);
 }
 
 }  // namespace
