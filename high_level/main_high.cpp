@@ -91,7 +91,7 @@ void report_what_was_found(const SharedBlackboard& board) {
 }
 
 int run(const cli::ProcessOptions& options, bool start_by_itself) {
-  const TomlDocument configuration = TomlDocument::from_file(options.configuration_file);
+  const TomlDocument configuration = cli::load_whole_configuration(options.configuration_file);
   const Scenario scenario = cli::load_named_scenario(options.scenario_file);
   SharedBlackboard board = SharedBlackboard::open(options.segment, Role::kHigh, kSegmentPatience);
   report_what_was_found(board);

@@ -4,6 +4,7 @@
 
 #include "deploy/cli/run/log.h"
 #include "deploy/cli/run/process_main.h"
+#include "deploy/cli/run/settings.h"
 #include "deploy/cli/run/simulated_boat.h"
 #include "mid_level/blackboard/segment.h"
 #include "mid_level/runtime/run_realtime.h"
@@ -12,7 +13,7 @@ namespace lodesman {
 namespace {
 
 int run(const cli::ProcessOptions& options) {
-  const TomlDocument configuration = TomlDocument::from_file(options.configuration_file);
+  const TomlDocument configuration = cli::load_whole_configuration(options.configuration_file);
   Scenario scenario = cli::load_named_scenario(options.scenario_file);
   scenario.seed = options.seed.value_or(scenario.seed);
   SharedBlackboard board = SharedBlackboard::create(options.segment);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "deploy/cli/common_options.h"
+#include "deploy/cli/number_options.h"
 #include "deploy/cli/tools/any_angle.h"
 #include "deploy/cli/tools/file_check.h"
 #include "deploy/cli/tools/plan_answers.h"
@@ -154,7 +155,7 @@ void add_options(CLI::App& command, PlanOptions& options) {
       ->capture_default_str();
   command
       .add_option("--repeat", options.repeat, "Answer each query so often and give median times")
-      ->check(CLI::Range(1, 10000))
+      ->check(number_from(1, 10000))
       ->type_name("N")
       ->capture_default_str();
   command

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "deploy/cli/common_options.h"
+#include "deploy/cli/number_options.h"
 #include "deploy/cli/run/settings.h"
 #include "low_level/path/path_finder.h"
 #include "low_level/sonar/ping_image.h"
@@ -39,12 +40,16 @@ struct SegmentOptions {
   double sector_deg = 0.0;
   bool fan = false;
   bool apex_at_bottom = true;
-  std::vector<double> apex_px;  // none, or column and row
-  double radius_px = 0.0;       // 0: the image's height
+  std::optional<std::array<double, 2>> apex_px;  // column and row
+  double radius_px = 0.0;                        // 0: the image's height
   std::string overlay_dir;
-  std::vector<double> plan_m;  // none, or x and y
-  double threshold = 0.0;      // 0: the configuration's
+  std::optional<std::array<double, 2>> plan_m;  // x and y
+  double threshold = 0.0;                       // 0: the configuration's
 };
+
+// What a goal, or the head's pixel outside an image, may lie away at most.
+constexpr double kFar_m = 1e4;
+constexpr double kFar_px = 1e5;
 
 // What the vehicle would do with the same configuration.
 DeltaTOptions configured(const SegmentOptions& options) {
@@ -62,10 +67,13 @@ class FrameReader {
   explicit FrameReader(const SegmentOptions& options)
       : options_{options}, delta_t_{configured(options)}, segmenter_{delta_t_.segmentation} {}
 
+  // False, and said, where the file holds no frame.
+  [[nodiscard]] bool load(const fs::path& file);
+  // What the frame loaded last shows.
   Json read(const fs::path& file);
 
  private:
-  void load(const fs::path& file);
+  void take(const GreyImage& image, const fs::path& file);
   void plan(Json& frame);
   void save_overlay(const fs::path& file);
 
@@ -80,8 +88,17 @@ class FrameReader {
   std::map<std::string, int> overlay_names_;  // how often each has been used
 };
 
-void FrameReader::load(const fs::path& file) {
-  const GreyImage image = read_grey_image(file);
+bool FrameReader::load(const fs::path& file) {
+  try {
+    take(read_grey_image(file), file);
+    return true;
+  } catch (const StartupError& error) {
+    std::cerr << error.what() << "\n";
+    return false;
+  }
+}
+
+void FrameReader::take(const GreyImage& image, const fs::path& file) {
   ping_->number += 1;
   ping_->range_m = options_.range_m;
   ping_->sector_rad = to_rad(options_.sector_deg);
@@ -90,9 +107,9 @@ void FrameReader::load(const fs::path& file) {
     return;
   }
   FanGeometry fan = whole_image_fan(image, options_.apex_at_bottom);
-  if (!options_.apex_px.empty()) {
-    fan.apex_column_px = options_.apex_px[0];
-    fan.apex_row_px = options_.apex_px[1];
+  if (options_.apex_px) {
+    fan.apex_column_px = (*options_.apex_px)[0];
+    fan.apex_row_px = (*options_.apex_px)[1];
   }
   if (options_.radius_px > 0.0) {
     fan.radius_px = options_.radius_px;
@@ -117,7 +134,6 @@ Json to_json(const Obstacle& o) {
 }
 
 Json FrameReader::read(const fs::path& file) {
-  load(file);
   segmenter_.segment(*ping_, *obstacles_);
   if (delta_t_.own_zones) {
     make_own_zones(*delta_t_.own_zones, *obstacles_);
@@ -130,7 +146,7 @@ Json FrameReader::read(const fs::path& file) {
     frame["dropped"] = obstacles_->dropped;
   }
   frame["path_m"] = nullptr;  // nothing was asked for
-  if (!options_.plan_m.empty()) {
+  if (options_.plan_m) {
     plan(frame);
   }
   if (!options_.overlay_dir.empty()) {
@@ -142,8 +158,8 @@ Json FrameReader::read(const fs::path& file) {
 void FrameReader::plan(Json& frame) {
   PathRequest request;
   request.id = request.frame = ping_->number;
-  request.goal_x_m = options_.plan_m[0];
-  request.goal_y_m = options_.plan_m[1];
+  request.goal_x_m = (*options_.plan_m)[0];
+  request.goal_y_m = (*options_.plan_m)[1];
   path_finder_.find_path(*obstacles_, request, options_.range_m, *path_);
   frame["path_m"] = Json::array();
   const SonarView view{options_.range_m};
@@ -164,9 +180,9 @@ void FrameReader::save_overlay(const fs::path& file) {
   picture.range_m = options_.range_m;
   picture.ping = ping_.get();
   picture.obstacles = obstacles_.get();
-  if (!options_.plan_m.empty()) {
+  if (options_.plan_m) {
     picture.path = {path_->pixels.data(), path_->pixel_count};
-    picture.goal = VehiclePoint{{options_.plan_m[0], options_.plan_m[1]}};
+    picture.goal = VehiclePoint{{(*options_.plan_m)[0], (*options_.plan_m)[1]}};
     caption += std::string{", path: "} + to_string(path_->reason);
   }
   picture.caption = caption;
@@ -207,7 +223,8 @@ void show_progress(const SegmentOptions& options, std::size_t done) {
   }
 }
 
-void segment(const SegmentOptions& options) {
+// A file that holds no frame is named, and the others are read all the same.
+[[nodiscard]] int segment(const SegmentOptions& options) {
   if (!options.overlay_dir.empty()) {
     std::error_code error;
     fs::create_directories(options.overlay_dir, error);
@@ -217,9 +234,18 @@ void segment(const SegmentOptions& options) {
   }
   FrameReader reader{options};
   Json frames = Json::array();
-  for (const std::string& image : options.images) {
-    frames.push_back(reader.read(image));
-    show_progress(options, frames.size());
+  int exit_status = kExitDone;
+  for (std::size_t i = 0; i < options.images.size(); ++i) {
+    const std::string& image = options.images[i];
+    if (reader.load(image)) {
+      frames.push_back(reader.read(image));
+    } else {
+      exit_status = kExitRefused;
+    }
+    show_progress(options, i + 1);
+  }
+  if (frames.empty()) {
+    return exit_status;
   }
   if (options.common.json) {
     std::cout << Json{{"frames", std::move(frames)}}.dump(-1, ' ', false,
@@ -230,6 +256,7 @@ void segment(const SegmentOptions& options) {
       print_frame(frame);
     }
   }
+  return exit_status;
 }
 
 // CLI11 owns its subcommands, so the options live and die with theirs.
@@ -241,12 +268,11 @@ class SegmentCommand : public CLI::App {
     add_input_options();
     add_option("--overlay", options_.overlay_dir, "Draw what was found into this directory")
         ->type_name("DIR");
-    add_option("--plan", options_.plan_m, "Find a path to this goal in the vehicle frame")
-        ->expected(2)
-        ->delimiter(',')
+    add_pair_option(*this, "--plan", options_.plan_m, -kFar_m, kFar_m,
+                    "Find a path to this goal in the vehicle frame")
         ->type_name("X,Y");
     add_option("--threshold", options_.threshold, "Echo strength from which a bin is bright")
-        ->check(CLI::Range(1.0, 255.0));
+        ->check(number_from(1.0, 255.0));
     footer("Example:\n  lodesman segment frames/*.pgm --range-m 30 --sector-deg 120 --json");
     callback([this] { run(); });
   }
@@ -256,10 +282,10 @@ class SegmentCommand : public CLI::App {
     add_option("IMAGE", options_.images, "8-bit PGM, PNG or JPEG frames")->required();
     add_option("--range-m", options_.range_m, "Range setting of the sonar")
         ->required()
-        ->check(CLI::Range(0.1, 300.0));
+        ->check(number_from(0.1, 300.0));
     add_option("--sector-deg", options_.sector_deg, "Sector that the frames show")
         ->required()
-        ->check(CLI::Range(1.0, 180.0));
+        ->check(number_from(1.0, 180.0));
     add_option("--layout", layout_,
                "polar: a column a beam, row 0 nearest; fan: as displayed, range as the distance "
                "from the apex")
@@ -268,21 +294,18 @@ class SegmentCommand : public CLI::App {
     add_option("--apex", apex_, "fan: where the head is; with top, range grows downwards")
         ->check(CLI::IsMember({"top", "bottom"}))
         ->capture_default_str();
-    add_option("--apex-px", options_.apex_px,
-               "fan: the head's pixel; default: the middle of the bottom (or top) row")
-        ->expected(2)
-        ->delimiter(',')
+    add_pair_option(*this, "--apex-px", options_.apex_px, -kFar_px, kFar_px,
+                    "fan: the head's pixel; default: the middle of the bottom (or top) row")
         ->type_name("COLUMN,ROW");
     add_option("--radius-px", options_.radius_px,
                "fan: pixels from the apex to full range; default: the image's height")
-        ->check(CLI::Range(1.0, 1e5));
+        ->check(number_from(1.0, 1e5));
   }
 
   void run() {
     options_.fan = layout_ == "fan";
     options_.apex_at_bottom = apex_ == "bottom";
-    segment(options_);
-    exit_status_ = kExitDone;
+    exit_status_ = segment(options_);
   }
 
   int& exit_status_;

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "deploy/cli/common_options.h"
+#include "deploy/cli/number_options.h"
 #include "deploy/cli/report/output_file.h"
 #include "deploy/cli/report/plan_story.h"
 #include "deploy/cli/report/plots.h"
@@ -185,9 +186,6 @@ class RunOutput {
 }
 
 [[nodiscard]] int simulate(const SimOptions& options) {
-  if (options.time_limit_s && std::isnan(*options.time_limit_s)) {  // in no range, says CLI11 not
-    throw StartupError("--time-limit: must be a number from 1 to 1000000");
-  }
   const TomlDocument configuration = load_configuration(options.profile, options.common);
   Scenario scenario = load_named_scenario(options.scenario);
   scenario.seed = options.seed.value_or(scenario.seed);
@@ -235,7 +233,7 @@ void add_options(CLI::App& command, SimOptions& options) {
   add_seed_option(command, options.seed);
   command.add_option("--time-limit", options.time_limit_s, "Instead of the scenario's")
       ->type_name("S")
-      ->check(CLI::Range(1.0, 1e6));
+      ->check(number_from(1.0, 1e6));
   command.add_flag("--no-images", options.no_images, "Neither sonar views nor plots");
   command.add_flag("--wait-start", options.wait_start, "Wait for `lodesman start`");
   command.add_option("--console", options.console, "off")->check(CLI::IsMember({"off"}));

@@ -2,7 +2,6 @@
 #include "low_level/sonar/ping_image.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -12,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "low_level/sonar/image_size.h"
+#include "low_level/sonar/image_structure.h"
 #include "mid_level/base/heading.h"
 #include "mid_level/base/startup_error.h"
 
@@ -51,16 +50,6 @@ bool starts_with(const Bytes& bytes, std::string_view magic) {
   return bytes.size() >= magic.size() &&
          std::equal(magic.begin(), magic.end(), bytes.begin(),
                     [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
-}
-
-// The decoders fill what a truncated file lacks with grey, which is no echo anybody measured.
-bool is_whole(const Bytes& bytes) {
-  constexpr std::array<std::uint8_t, 4> kPngEnd{'I', 'E', 'N', 'D'};
-  constexpr std::array<std::uint8_t, 2> kJpegEnd{0xFF, 0xD9};
-  if (starts_with(bytes, kPng)) {
-    return std::search(bytes.begin(), bytes.end(), kPngEnd.begin(), kPngEnd.end()) != bytes.end();
-  }
-  return std::search(bytes.begin(), bytes.end(), kJpegEnd.begin(), kJpegEnd.end()) != bytes.end();
 }
 
 // A number of a PGM's header, after white space and comments.
@@ -112,7 +101,7 @@ GreyImage decode_pgm(const Bytes& bytes, const std::filesystem::path& file) {
 }
 
 double pixel(const GreyImage& image, double column, double row) noexcept {
-  if (column < 0.0 || row < 0.0 || column > image.columns - 1.0 || row > image.rows - 1.0) {
+  if (!(column >= 0.0 && row >= 0.0 && column <= image.columns - 1.0 && row <= image.rows - 1.0)) {
     return 0.0;
   }
   const auto c0 = static_cast<std::size_t>(column);
@@ -138,11 +127,11 @@ GreyImage read_grey_image(const std::filesystem::path& file) {
   if (!starts_with(bytes, kPng) && !starts_with(bytes, kJpeg)) {
     refuse(file, "not a binary PGM, PNG or JPEG image");
   }
-  if (!is_whole(bytes)) {
-    refuse(file, "the image is truncated");
-  }
   if (declared_pixels(bytes) > kMaxImagePixels) {
     refuse(file, "must have at most 64 million pixels");
+  }
+  if (!is_whole(bytes)) {
+    refuse(file, "the image is truncated");
   }
   cv::Mat decoded;
   try {

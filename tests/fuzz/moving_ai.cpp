@@ -18,7 +18,7 @@ void map(std::string_view input) {
                     static_cast<std::size_t>(read.width) * static_cast<std::size_t>(read.height),
             "a map has other cells than its sides say");
     PassableMap drawn{read.width, read.height};
-    read.draw(drawn);
+    read.draw(drawn, cli::Terrain::kGround);
     require(drawn.free_cells() <= read.cells.size(), "a map has more free cells than cells");
   });
 }

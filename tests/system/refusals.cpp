@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the programs must refuse, end to end: exit status 2, one line on standard error, nothing on
 // standard output and nothing written.
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <regex>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/catch.h"
 #include "tests/support/good_scenario.h"
+#include "tests/system/program_bench.h"
 
 namespace lodesman {
 namespace {
 
 namespace fs = std::filesystem;
 
+using testing::Bench;
 using testing::kGoodScenario;
+using testing::Outcome;
+using testing::text_of;
 
 [[nodiscard]] std::string replaced(const std::string& old, const std::string& by) {
   std::string text = testing::replaced(kGoodScenario, old, by);
@@ -36,72 +36,6 @@ using testing::kGoodScenario;
   }
   return text;
 }
-
-[[nodiscard]] std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file, std::ios::binary}.rdbuf();
-  return text.str();
-}
-
-struct Outcome {
-  int status = -1;
-  std::string out;
-  std::string error;
-};
-
-// A directory of its own for each row, in which the program runs.
-class Bench {
- public:
-  Bench() {
-    std::string pattern = (fs::temp_directory_path() / "lodesman-refusals-XXXXXX").string();
-    REQUIRE(mkdtemp(pattern.data()) != nullptr);
-    place_ = pattern;
-  }
-  Bench(const Bench&) = delete;
-  Bench& operator=(const Bench&) = delete;
-  ~Bench() { fs::remove_all(place_); }
-
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream{place_ / name, std::ios::binary} << text;
-    written_ += 1;
-  }
-  [[nodiscard]] Outcome run(const std::string& program, std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), program);
-    std::vector<char*> argv;
-    for (std::string& argument : arguments) {
-      argv.push_back(argument.data());
-    }
-    argv.push_back(nullptr);
-    const fs::path streams = place_.string() + ".streams";
-    fs::create_directories(streams);
-    const pid_t child = fork();
-    if (child == 0) {
-      constexpr unsigned kWatchdog_s = 60;
-      const bool ready = chdir(place_.c_str()) == 0 &&
-                         freopen((streams / "out").c_str(), "w", stdout) != nullptr &&
-                         freopen((streams / "error").c_str(), "w", stderr) != nullptr;
-      alarm(kWatchdog_s);
-      if (ready) {
-        execv(program.c_str(), argv.data());
-      }
-      _exit(127);
-    }
-    int status = 0;
-    waitpid(child, &status, 0);
-    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
-                    text_of(streams / "out"), text_of(streams / "error")};
-    fs::remove_all(streams);
-    return outcome;
-  }
-  // Whether the program left anything behind.
-  [[nodiscard]] bool untouched() const {
-    return std::distance(fs::directory_iterator{place_}, fs::directory_iterator{}) == written_;
-  }
-
- private:
-  fs::path place_;
-  std::ptrdiff_t written_ = 0;
-};
 
 void check_refused(const Bench& bench, const Outcome& outcome, const std::string& line) {
   CHECK(outcome.status == 2);
@@ -309,6 +243,7 @@ TEST_CASE("refusals: lodesman-low refuses before it makes a segment", "[system][
   const std::vector<Row> rows{
       {"", kGoodScenario, "^c.toml:1: [a-z_.]+: missing"},
       {"[planner", kGoodScenario, "^c.toml:1: toml: "},
+      {configuration + "\n[typo]\nx = 1\n", kGoodScenario, "^c.toml:[0-9]+: typo: unknown key"},
       {configuration, "", "^s.toml:1: name: missing"},
       {configuration, replaced("seed = 1", "seed = -1"), "^s.toml:2: seed: "},
       {configuration, replaced("beams = 240", "bans = 240"), "^s.toml:43: sonar.bans: unknown"},
@@ -324,6 +259,21 @@ TEST_CASE("refusals: lodesman-low refuses before it makes a segment", "[system][
                             {"--segment", segment, "--config", "c.toml", "--scenario", "s.toml"}),
                   row.line);
     CHECK_FALSE(fs::exists("/dev/shm/" + segment));
+  }
+}
+
+TEST_CASE("refusals: lodesman-high refuses an unknown key before it looks for a segment",
+          "[system][refusals]") {
+  const std::string configuration = text_of(LODESMAN_CONFIGURATION);
+  for (const std::string extra : {"\n[typo]\nx = 1\n", "\n[[typo]]\n"}) {
+    Bench bench;
+    bench.write("c.toml", configuration + extra);
+    bench.write("s.toml", kGoodScenario);
+    check_refused(bench,
+                  bench.run(LODESMAN_HIGH_PROGRAM,
+                            {"--segment", "lodesman-refusals-" + std::to_string(getpid()),
+                             "--config", "c.toml", "--scenario", "s.toml"}),
+                  "^c.toml:[0-9]+: .*typo: unknown key");
   }
 }
 

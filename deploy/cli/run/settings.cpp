@@ -35,6 +35,20 @@ fs::path config_file(const std::string& name) {
   return share_directory() / "deploy" / "config" / name;
 }
 
+namespace {
+
+// Reads every key that any program reads, so that what is left is unknown.
+void require_valid(const TomlDocument& configuration) {
+  (void)read_low_level_options(configuration.root());
+  (void)read_high_level_options(configuration.root());
+  (void)command_socket_settings(configuration);
+  (void)device_addresses(configuration);
+  (void)simulation_settings(configuration);
+  configuration.require_all_keys_read();
+}
+
+}  // namespace
+
 TomlDocument load_configuration(const std::string& profile, const CommonOptions& options) {
   TomlDocument configuration = TomlDocument::from_file(config_file("default.toml"));
   if (profile != "default") {
@@ -50,12 +64,13 @@ TomlDocument load_configuration(const std::string& profile, const CommonOptions&
     }
     configuration.overlay(TomlDocument::from_text(set, "--set"));
   }
-  (void)read_low_level_options(configuration.root());
-  (void)read_high_level_options(configuration.root());
-  (void)command_socket_settings(configuration);
-  (void)device_addresses(configuration);
-  (void)simulation_settings(configuration);
-  configuration.require_all_keys_read();
+  require_valid(configuration);
+  return configuration;
+}
+
+TomlDocument load_whole_configuration(const fs::path& file) {
+  TomlDocument configuration = TomlDocument::from_file(file);
+  require_valid(configuration);
   return configuration;
 }
 

@@ -27,6 +27,10 @@ namespace lodesman::cli {
 [[nodiscard]] TomlDocument load_configuration(const std::string& profile,
                                               const CommonOptions& options);
 
+// A file that holds every key, as lodesman-low and lodesman-high are given it: checked as whole as
+// the one above, whichever part of it the program goes on to use.
+[[nodiscard]] TomlDocument load_whole_configuration(const std::filesystem::path& file);
+
 // By path, or by the name of a shipped scenario.
 [[nodiscard]] Scenario load_named_scenario(const std::string& name_or_path);
 [[nodiscard]] std::filesystem::path scenario_file(const std::string& name_or_path);

@@ -21,6 +21,9 @@ namespace {
 
 void check(const std::string& file, const CommonOptions& common, std::string& kind) {
   const TomlDocument document = TomlDocument::from_file(file);
+  if (document.root().empty()) {
+    throw StartupError(file, 1, "file", "says nothing");
+  }
   if (is_scenario(document.root())) {
     kind = "scenario";
     (void)load_scenario(file, load_vessel_parameters());

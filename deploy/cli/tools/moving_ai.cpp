@@ -38,8 +38,8 @@ void require_map_row(const LinePlace& place, const std::string& row, int width) 
     place.refuse("map", "has " + std::to_string(row.size()) + " cells, and the width is " +
                             std::to_string(width));
   }
-  if (const auto odd = row.find_first_not_of(".G@OTW"); odd != std::string::npos) {
-    place.refuse("map", "column " + std::to_string(odd) + ": must be one of . G @ O T W");
+  if (const auto odd = row.find_first_not_of(".G@OTSW"); odd != std::string::npos) {
+    place.refuse("map", "column " + std::to_string(odd) + ": must be one of . G @ O T S W");
   }
 }
 
@@ -76,11 +76,16 @@ void require_map_row(const LinePlace& place, const std::string& row, int width) 
 
 }  // namespace
 
-void MovingAiMap::draw(PassableMap& map) const noexcept {
+Terrain MovingAiMap::terrain_at(MapCell cell) const noexcept {
+  return terrain_of(cells[static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(width) +
+                          static_cast<std::size_t>(cell.column)]);
+}
+
+void MovingAiMap::draw(PassableMap& map, Terrain terrain) const noexcept {
   std::size_t i = 0;
   for (int row = 0; row < height; ++row) {
     for (int column = 0; column < width; ++column) {
-      map.set({column, row}, is_free(cells[i++]));
+      map.set({column, row}, terrain_of(cells[i++]) == terrain);
     }
   }
 }

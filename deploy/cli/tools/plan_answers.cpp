@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 
 #include "mid_level/base/clock.h"
 #include "mid_level/messages/sonar_view.h"
@@ -155,6 +156,21 @@ void FramePlanner::search_map(const FrameQuery& query, PlanAnswer& answer) {
   }
 }
 
+namespace {
+
+// The benchmark's older files were made with the root itself, those of cities and of many agents
+// with nine decimals of it.
+[[nodiscard]] bool is_known_length(const MapSearchResult& result, const MovingAiQuery& query) {
+  constexpr std::array kDiagonals{std::numbers::sqrt2, 1.414213562};
+  return std::any_of(kDiagonals.begin(), kDiagonals.end(), [&](double diagonal) {
+    const double length = result.straight_steps + result.diagonal_steps * diagonal;
+    // A little more than the digit, for what its own rounding in binary takes.
+    return std::abs(length - query.known_length) <= query.last_digit * (1.0 + 1e-6);
+  });
+}
+
+}  // namespace
+
 MapPlanner::MapPlanner(const MovingAiMap& map, MapCosts costs)
     : text_{map},
       costs_{costs},
@@ -164,14 +180,18 @@ MapPlanner::MapPlanner(const MovingAiMap& map, MapCosts costs)
 PlanAnswer MapPlanner::answer(const MovingAiQuery& query, std::size_t number, int repeat) {
   PlanAnswer answer;
   answer.id = number;
+  // A start on neither is blocked on ground too.
+  const Terrain terrain =
+      text_.terrain_at(query.start) == Terrain::kWater ? Terrain::kWater : Terrain::kGround;
+  MapSearchResult result;
   time_both(
-      repeat, answer, [&] { text_.draw(map_); },
-      [&] { take(search_.search(map_, query.start, query.goal), costs_, answer); });
+      repeat, answer, [&] { text_.draw(map_, terrain); },
+      [&] { result = search_.search(map_, query.start, query.goal); });
+  const bool known = is_known_length(result, query);
+  take(std::move(result), costs_, answer);
   answer.free_px = map_.free_cells();
   if (costs_ == MapCosts::kSqrt2) {
-    // A little more than the digit, for what its own rounding in binary takes.
-    answer.agrees = answer.reason == PathReason::kFound &&
-                    std::abs(answer.cost - query.known_length) <= query.last_digit * (1.0 + 1e-6);
+    answer.agrees = answer.reason == PathReason::kFound && known;
   }
   return answer;
 }

@@ -202,6 +202,8 @@ void TomlTable::refuse(std::string_view key, const std::string& reason) const {
   refuse_node(node != nullptr ? *node : *table, *document_, path_of(key), reason);
 }
 
+bool TomlTable::empty() const noexcept { return static_cast<const toml::table*>(table_)->empty(); }
+
 bool TomlTable::has(std::string_view key) const {
   return static_cast<const toml::table*>(table_)->contains(key);
 }

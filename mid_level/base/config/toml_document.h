@@ -71,6 +71,7 @@ class TomlDocument {
 // unless it is asked for with a value to use instead. Must not outlive its document.
 class TomlTable {
  public:
+  [[nodiscard]] bool empty() const noexcept;
   [[nodiscard]] bool has(std::string_view key) const;
 
   [[nodiscard]] double number(std::string_view key, Range range) const;

@@ -33,11 +33,54 @@ TEST_CASE("cli: a MovingAI map is read as it stands", "[cli]") {
   const TextFile file{"a.map", kMap};
   const MovingAiMap text = read_map(file.path());
   PassableMap map{text.width, text.height};
-  text.draw(map);
+  text.draw(map, Terrain::kGround);
   REQUIRE(map.free_cells() == 4);
   REQUIRE(map.passable({1, 1}));
   REQUIRE_FALSE(map.passable({0, 1}));
   REQUIRE_FALSE(map.passable({3, 0}));
+}
+
+// The answer to one query on a small map, with the length that its file gives.
+[[nodiscard]] PlanAnswer answer_on(const std::string& rows, MapCell start, MapCell goal,
+                                   const std::string& length) {
+  const auto width = rows.find('\n');
+  const auto height = rows.size() / (width + 1);
+  const std::string size = std::to_string(width) + " " + std::to_string(height);
+  const TextFile map{"a.map", "type octile\nheight " + std::to_string(height) + "\nwidth " +
+                                  std::to_string(width) + "\nmap\n" + rows};
+  const TextFile scen{"a.scen", "version 1\n0 a.map " + size + " " + std::to_string(start.column) +
+                                    " " + std::to_string(start.row) + " " +
+                                    std::to_string(goal.column) + " " + std::to_string(goal.row) +
+                                    " " + length + "\n"};
+  const MovingAiMap read = read_map(map.path());
+  return MapPlanner{read, MapCosts::kSqrt2}.answer(read_scen(scen.path(), read)[0], 0, 1);
+}
+
+TEST_CASE("cli: ground leads to swamp and water to water but neither to the other", "[cli]") {
+  const std::string swamp = "....\n.@S.\n....\n";
+  CHECK(answer_on(swamp, {0, 0}, {3, 2}, "4.41421356").agrees == true);
+  CHECK(answer_on(swamp, {2, 1}, {3, 1}, "1").agrees == true);
+  const std::string water = "WWWW\n.@..\n....\n";
+  CHECK(answer_on(water, {0, 0}, {3, 0}, "3.00000000").agrees == true);
+  CHECK(answer_on(water, {0, 0}, {0, 2}, "2").reason == PathReason::kGoalBlocked);
+  CHECK(answer_on(water, {0, 2}, {0, 0}, "2").reason == PathReason::kGoalBlocked);
+  // Past a corner of water there is no diagonal on ground.
+  CHECK(answer_on("W.\n..\n", {1, 0}, {0, 1}, "2").agrees == true);
+  for (const char blocked : {'@', 'O', 'T'}) {
+    CHECK(answer_on(std::string{blocked} + ".\n", {0, 0}, {1, 0}, "1").reason ==
+          PathReason::kStartBlocked);
+  }
+}
+
+TEST_CASE("cli: a length made with nine decimals of the root agrees and no other does", "[cli]") {
+  std::string open;
+  for (int row = 0; row < 512; ++row) {
+    open += std::string(512, '.') + "\n";
+  }
+  CHECK(answer_on(open, {0, 511}, {511, 0}, "722.66313018").agrees == true);  // 1.414213562
+  CHECK(answer_on(open, {0, 511}, {511, 0}, "722.66313037").agrees == true);  // the root itself
+  CHECK(answer_on(open, {0, 511}, {511, 0}, "722.66313028").agrees == false);
+  CHECK(answer_on(open, {0, 511}, {511, 0}, "722.66312").agrees == false);
 }
 
 TEST_CASE("cli: a MovingAI map that is wrong is refused by line", "[cli]") {
@@ -55,7 +98,7 @@ TEST_CASE("cli: a MovingAI map that is wrong is refused by line", "[cli]") {
   REQUIRE(map_refused("type octile\nheight 1\nwidth 3\nmap\n....\n") ==
           "5: map: has 4 cells, and the width is 3");
   REQUIRE(map_refused("type octile\nheight 1\nwidth 3\nmap\n.x.\n") ==
-          "5: map: column 1: must be one of . G @ O T W");
+          "5: map: column 1: must be one of . G @ O T S W");
 }
 
 TEST_CASE("cli: MovingAI queries that are wrong are refused by line and field", "[cli]") {

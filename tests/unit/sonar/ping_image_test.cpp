@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "low_level/sonar/view_image.h"
 #include "mid_level/base/startup_error.h"
 #include "tests/support/catch.h"
 #include "tests/unit/sonar/synthetic.h"
@@ -75,6 +76,49 @@ TEST_CASE("frame files: no other format is tried", "[low_level][sonar]") {
     const TemporaryFile file{"other", bytes};
     CHECK_THROWS_WITH(read_grey_image(file.path()),
                       file.path().string() + ":1: image: not a binary PGM, PNG or JPEG image");
+  }
+}
+
+// `file` with one more part after its first `place` bytes.
+std::string with_part(const std::vector<std::uint8_t>& file, std::size_t place,
+                      const std::string& part) {
+  std::string bytes{file.begin(), file.end()};
+  return bytes.insert(place, part);
+}
+
+std::string big_endian(std::size_t number, int size) {
+  std::string bytes;
+  for (int shift = 8 * (size - 1); shift >= 0; shift -= 8) {
+    bytes.push_back(static_cast<char>(number >> static_cast<unsigned>(shift) & 0xFFU));
+  }
+  return bytes;
+}
+
+TEST_CASE("frame files: an image cut off is refused though a preview in it ends",
+          "[low_level][sonar]") {
+  const auto jpeg = encode_view({30.0}, ViewFormat::kJpeg);
+  const auto png = encode_view({30.0}, ViewFormat::kPng);
+  REQUIRE(jpeg.size() < 60000);
+  // The preview is the same picture again, in a segment as cameras write it.
+  const std::string preview{jpeg.begin(), jpeg.end()};
+  const std::string segment = "\xFF\xED" + big_endian(preview.size() + 2, 2) + preview;
+  // A PNG's chunk of text that holds the name of its last; readers skip its check (a private one).
+  const std::string chunk = big_endian(8, 4) + "prIvno IEND!" + std::string(4, '\0');
+  constexpr std::size_t kAfterStart = 2;
+  constexpr std::size_t kAfterHeader = 8 + 25;
+  const auto [name, whole, least] = GENERATE_COPY(table<std::string, std::string, std::size_t>(
+      {{"a.jpg", with_part(jpeg, kAfterStart, segment), kAfterStart + segment.size()},
+       {"a.png", with_part(png, kAfterHeader, chunk), kAfterHeader + chunk.size()}}));
+  CAPTURE(name);
+  {
+    const TemporaryFile file{name, whole};
+    CHECK(read_grey_image(file.path()).columns == 866);
+  }
+  for (const double share : {0.0, 0.3, 0.6, 0.99}) {
+    const auto left = static_cast<double>(whole.size() - least);
+    const TemporaryFile file{name, whole.substr(0, least + static_cast<std::size_t>(share * left))};
+    CHECK_THROWS_WITH(read_grey_image(file.path()),
+                      file.path().string() + ":1: image: the image is truncated");
   }
 }
 

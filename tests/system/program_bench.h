@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs a program in a directory of its own and keeps what it said.
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/catch.h"
+
+namespace lodesman::testing {
+
+namespace fs = std::filesystem;
+
+[[nodiscard]] inline std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream{file, std::ios::binary}.rdbuf();
+  return text.str();
+}
+
+struct Outcome {
+  int status = -1;
+  std::string out;
+  std::string error;
+};
+
+// A directory of its own for each row, in which the program runs.
+class Bench {
+ public:
+  Bench() {
+    std::string pattern = (fs::temp_directory_path() / "lodesman-refusals-XXXXXX").string();
+    REQUIRE(mkdtemp(pattern.data()) != nullptr);
+    place_ = pattern;
+  }
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
+  ~Bench() { fs::remove_all(place_); }
+
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream{place_ / name, std::ios::binary} << text;
+    written_ += 1;
+  }
+  [[nodiscard]] Outcome run(const std::string& program, std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), program);
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) {
+      argv.push_back(argument.data());
+    }
+    argv.push_back(nullptr);
+    const fs::path streams = place_.string() + ".streams";
+    fs::create_directories(streams);
+    const pid_t child = fork();
+    if (child == 0) {
+      constexpr unsigned kWatchdog_s = 60;
+      const bool ready = chdir(place_.c_str()) == 0 &&
+                         freopen((streams / "out").c_str(), "w", stdout) != nullptr &&
+                         freopen((streams / "error").c_str(), "w", stderr) != nullptr;
+      alarm(kWatchdog_s);
+      if (ready) {
+        execv(program.c_str(), argv.data());
+      }
+      _exit(127);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
+                    text_of(streams / "out"), text_of(streams / "error")};
+    fs::remove_all(streams);
+    return outcome;
+  }
+  // Whether the program left anything behind.
+  [[nodiscard]] bool untouched() const {
+    return std::distance(fs::directory_iterator{place_}, fs::directory_iterator{}) == written_;
+  }
+
+ private:
+  fs::path place_;
+  std::ptrdiff_t written_ = 0;
+};
+
+}  // namespace lodesman::testing
