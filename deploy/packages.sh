@@ -7,8 +7,10 @@ build_packages="g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev libs
 test_packages="catch2"
 # For tests/bench, which is built with -DLODESMAN_BENCH=ON.
 bench_packages="libbenchmark-dev"
-# For the presets asan, tsan, fuzz and tidy.
-clang_packages="clang libclang-rt-14-dev clang-tidy"
+# For the presets asan, tsan, fuzz and tidy, and for the layout of the sources.
+clang_packages="clang libclang-rt-14-dev clang-tidy clang-format-14"
+# For tests/measure/suite_repeat.sh.
+load_packages="stress-ng"
 
 say() { echo "lodesman: $*" >&2; }
 

@@ -5,9 +5,9 @@
 
 #include "drivers/hal/devices.h"
 #include "hal_sim/devices/sample_feed.h"
-#include "mid_level/base/random_stream.h"
 #include "hal_sim/world/scenario.h"
 #include "mid_level/base/geodesy.h"
+#include "mid_level/base/random_stream.h"
 
 namespace lodesman {
 

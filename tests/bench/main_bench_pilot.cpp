@@ -15,8 +15,8 @@
 namespace lodesman::bench {
 namespace {
 
-constexpr std::array kScenarios{"paper-static", "paper-multiple", "paper-speed-1.12",
-                                "ring-opens", "twenty-movers"};
+constexpr std::array kScenarios{"paper-static", "paper-multiple", "paper-speed-1.12", "ring-opens",
+                                "twenty-movers"};
 
 // A task and how long its steps took, in microseconds, since somebody last looked.
 class Measured final : public Task {
@@ -76,8 +76,8 @@ void print_table() {
       sum_us += ping_us;
     }
     const double mean_us = sum_us / static_cast<double>(cost.ping_us.size());
-    std::printf("| %s | %zu | %.0f | %.0f | %.0f | %.2f %% |\n", scenario_name,
-                cost.ping_us.size(), us.p50, us.p99, us.max, mean_us / 1e5 * 100.0);
+    std::printf("| %s | %zu | %.0f | %.0f | %.0f | %.2f %% |\n", scenario_name, cost.ping_us.size(),
+                us.p50, us.p99, us.max, mean_us / 1e5 * 100.0);
     std::fflush(stdout);
   }
 }

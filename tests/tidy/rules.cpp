@@ -114,6 +114,11 @@ Findings hasty_tests(const SourceFile& file) {
   return findings;
 }
 
+Findings numbers_from_outside(const SourceFile& file) {
+  return banned(file, R"(\bCLI::(Range|Number|PositiveNumber|NonNegativeNumber|Bound)\b)",
+                {"tests/"});
+}
+
 Findings long_lines(const SourceFile& file) {
   Findings findings;
   const auto lines = lines_of(file.text);
@@ -244,6 +249,7 @@ const std::vector<Rule>& rules() {
       {"conditionals", conditionals},
       {"truth readers", truth_readers},
       {"hasty tests", hasty_tests},
+      {"numbers from outside", numbers_from_outside},
       {"long lines", long_lines},
       {"long files", long_files},
       {"long functions", long_functions},

@@ -31,6 +31,8 @@ struct Rule {
 [[nodiscard]] Findings chance(const SourceFile& file);
 [[nodiscard]] Findings conditionals(const SourceFile& file);
 [[nodiscard]] Findings truth_readers(const SourceFile& file);
+// CLI11's own ranges let through what is not a number: number_options.h checks.
+[[nodiscard]] Findings numbers_from_outside(const SourceFile& file);
 // Tests beside running processes wait for what they read and take no fixed port.
 [[nodiscard]] Findings hasty_tests(const SourceFile& file);
 [[nodiscard]] Findings long_lines(const SourceFile& file);
@@ -44,5 +46,8 @@ struct Rule {
 
 // Every .cpp is named in a CMakeLists.txt of its directory or one above it.
 [[nodiscard]] Findings unlisted_sources(const std::vector<SourceFile>& tree);
+
+// A document cites a test by its whole name, in backquotes: "subject: sentence". Each must exist.
+[[nodiscard]] Findings missing_tests(const std::vector<SourceFile>& tree);
 
 }  // namespace lodesman::tidy

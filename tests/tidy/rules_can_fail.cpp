@@ -102,6 +102,8 @@ TEST_CASE("tidy: words that have no place in a room are seen", "[tidy]") {
       {truth_readers, "low_level/tasks/a.cpp", truth, 1, "high_level/tasks/estimator.cpp", truth},
       {truth_readers, "high_level/tasks/planner.cpp", "board.world_truth;\n", 1,
        "hal_sim/world/world_task.cpp", "board.world_truth;\n"},
+      {numbers_from_outside, "deploy/cli/a.cpp", "o->check(CLI::Range(1.0, 2.0));\n", 1,
+       "deploy/cli/a.cpp", "o->check(number_from(1.0, 2.0));\n"},
       {machine_paths, "docs/a.md",
        "see /ho"
        "me/me/a\n",
@@ -191,6 +193,20 @@ TEST_CASE("tidy: a source file that no list names is seen", "[tidy]") {
   CHECK(unlisted_sources({list, named, below}).empty());
   CHECK(unlisted_sources({list, lost}).size() == 1);
   CHECK(unlisted_sources({list, elsewhere}).size() == 1);
+}
+
+TEST_CASE("tidy: a cited test that does not exist is seen", "[tidy]") {
+  const SourceFile tests{"tests/unit/a.cpp",
+                         "TEST_CASE(\"path: one is\"\n  \" found\", \"[x]\") {}\n"
+                         "TEMPLATE_TEST_CASE(\"pump: \\\"it\\\" runs\", \"\", int) {}\n"};
+  const auto findings = [&](const std::string& text) {
+    return missing_tests({tests, {"docs/a.md", text}}).size();
+  };
+  CHECK(findings("see `path: one is found` and `path: one\nis found`\n") == 0);
+  CHECK(findings("`pump: \"it\" runs`\n") == 0);
+  CHECK(findings("\n`path: one is lost`\n") == 1);
+  CHECK(findings("`path: one is` `path: two are found`\n") == 2);
+  CHECK(findings("`file:line: key: reason`, `a.b: c d`, `name: word`, path: one two\n") == 0);
 }
 
 TEST_CASE("tidy: comments, literals and blocks are told from code", "[tidy]") {

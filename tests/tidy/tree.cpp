@@ -23,5 +23,11 @@ TEST_CASE("tidy: every source file of the tree is built", "[tidy]") {
   }
 }
 
+TEST_CASE("tidy: every test that a document cites exists", "[tidy]") {
+  for (const std::string& finding : missing_tests(read_tree(LODESMAN_SOURCE_DIR))) {
+    FAIL_CHECK(finding);
+  }
+}
+
 }  // namespace
 }  // namespace lodesman::tidy

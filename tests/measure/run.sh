@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Runs all that is measured: each measure_* program of a build, and each script of this directory but
+# the drivers. Each prints a table, fails where a bound is broken, and takes how often as its first
+# argument; without one it measures in full.
+#   tests/measure/run.sh [--reduced] [BUILD_DIRECTORY]
+# --reduced: as often as the file `reduced_counts` says (name and count), 3 times where it does not.
+set -u
+cd "$(dirname "$0")/../.."
+reduced=false
+[ "${1:-}" = --reduced ] && reduced=true && shift
+build=${1:-build/release}
+
+# count_of <name>: nothing where all is measured in full.
+count_of() {
+  $reduced || return 0
+  awk -v name="$1" '$1 == name { count = $2 } END { print count ? count : 3 }' \
+    tests/measure/reduced_counts
+}
+
+failed=""
+for what in "$build"/bin/measure_* tests/measure/*.sh; do
+  name=$(basename "$what" .sh)
+  case $name in run | suite_repeat | 'measure_*') continue ;; esac
+  start=$SECONDS
+  echo "== $name $(count_of "$name")"
+  LODESMAN_BUILD=$build "$what" $(count_of "$name") || failed="$failed $name"
+  echo "== $name took $((SECONDS - start)) s"
+done
+[ -z "$failed" ] || { echo "measure: failed:$failed" >&2; exit 1; }

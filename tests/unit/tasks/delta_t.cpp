@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "low_level/tasks/delta_t.h"
+
+#include "low_level/tasks/low_level.h"
+#include "tests/support/catch.h"
+#include "tests/unit/tasks/support.h"
+
+namespace lodesman::testing {
+namespace {
+
+[[nodiscard]] DeltaTOptions shipped_options() {
+  return read_low_level_options(TomlDocument::from_file(LODESMAN_DEFAULT_CONFIG).root()).delta_t;
+}
+
+[[nodiscard]] DeltaTOptions with_known_scene() {
+  MovingObstacle obstacle;
+  obstacle.at_start.id = 1;
+  obstacle.at_start.centre_y_m = 10.0;
+  obstacle.at_start.semi_axis_first_m = obstacle.at_start.semi_axis_second_m = 0.5;
+  DeltaTOptions options = shipped_options();
+  options.known_scene = {obstacle};
+  return options;
+}
+
+struct DeltaT {
+  explicit DeltaT(const DeltaTOptions& options) : task{*board, Role::kLow, sonar, options} {}
+
+  void estimate(Time at) {
+    VehicleState here;
+    here.valid_at = at;
+    state.publish(here, at);
+  }
+  // How many frames of obstacles a step at that time published.
+  [[nodiscard]] std::size_t frames_after_step(Time now) {
+    task.step(now);
+    return all_of(obstacles).size();
+  }
+
+  std::unique_ptr<Blackboard> board = std::make_unique<Blackboard>();
+  ScriptedSonar sonar;
+  DeltaTTask task;
+  Writer<VehicleState> state{board->vehicle_state, Role::kHigh, "vehicle_state"};
+  Reader<SonarPing> pings{board->sonar_ping};
+  Reader<SonarObstacles> obstacles{board->sonar_obstacles};
+  Reader<Tracks> tracks{board->tracks};
+};
+
+TEST_CASE("delta_t task: a ping is published with what was found in it", "[low_level][tasks]") {
+  DeltaT delta_t{shipped_options()};
+  delta_t.estimate(kStart);
+  CHECK(delta_t.frames_after_step(kStart) == 1);
+  CHECK(all_of(delta_t.pings).size() == 1);
+  CHECK(all_of(delta_t.tracks).size() == 1);
+}
+
+TEST_CASE("delta_t task: without a ping nothing is published", "[low_level][tasks]") {
+  for (const auto status :
+       {ReadStatus::kNothingNew, ReadStatus::kCorrupt, ReadStatus::kDisconnected}) {
+    DeltaT delta_t{shipped_options()};
+    delta_t.sonar.status = status;
+    CHECK(delta_t.frames_after_step(kStart) == 0);
+    CHECK(all_of(delta_t.pings).empty());
+    delta_t.sonar.status = ReadStatus::kFresh;
+    CHECK(delta_t.frames_after_step(kStart) == 1);  // it came back
+  }
+}
+
+TEST_CASE("delta_t task: what is seen has a place in the world only where the estimate is fresh",
+          "[low_level][tasks]") {
+  DeltaT delta_t{shipped_options()};
+  CHECK(delta_t.frames_after_step(kStart) == 1);
+  CHECK(all_of(delta_t.tracks).empty());  // no estimate yet
+  delta_t.estimate(kStart);
+  CHECK(delta_t.frames_after_step(kStart + max_age::kVehicleState + Duration{1}) == 1);
+  CHECK(all_of(delta_t.tracks).empty());  // it is stale
+}
+
+TEST_CASE("delta_t task: a known scene is drawn at a fresh estimate or not at all",
+          "[low_level][tasks]") {
+  DeltaT delta_t{with_known_scene()};
+  CHECK(delta_t.frames_after_step(kStart) == 0);
+  delta_t.estimate(kStart + seconds{3600});  // of the future
+  CHECK(delta_t.frames_after_step(kStart) == 0);
+  delta_t.estimate(kStart);
+  CHECK(delta_t.frames_after_step(kStart) == 1);
+  CHECK(delta_t.obstacles.latest()->value.count == 1);
+  CHECK(delta_t.frames_after_step(kStart + max_age::kVehicleState + Duration{1}) == 0);
+}
+
+}  // namespace
+}  // namespace lodesman::testing

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "high_level/tasks/estimator.h"
+
+#include <cmath>
+
+#include "tests/support/catch.h"
+#include "tests/unit/tasks/support.h"
+
+namespace lodesman::testing {
+namespace {
+
+[[nodiscard]] EstimatorOptions options_for(PositionSource source) {
+  EstimatorOptions options;
+  options.source = source;
+  options.dead_reckoning = {milliseconds{200}, 0.01375};
+  options.gps_correction = 1.0;
+  options.current_time = seconds{30};
+  options.origin = {35.0, 139.0};
+  return options;
+}
+
+struct Estimator {
+  explicit Estimator(PositionSource source) : task{*board, Role::kHigh, options_for(source)} {}
+
+  void head(double rad, Time at) { attitude.publish({at, rad, 0.0}, at); }
+  void fix(double latitude_deg, Time at) { position.publish({at, latitude_deg, 139.0, 1.0}, at); }
+  void drive(int surge_ref, Time at) {
+    ThrustApplied applied;
+    applied.reason = ThrustReason::kCommanded;
+    applied.surge_ref = surge_ref;
+    thrust.publish(applied, at);
+  }
+  // The estimate that a step at that time published, if it did.
+  [[nodiscard]] std::optional<VehicleState> after_step(Time now) {
+    task.step(now);
+    const auto published = all_of(states);
+    return published.empty() ? std::nullopt : std::optional{published.back()};
+  }
+
+  std::unique_ptr<Blackboard> board = std::make_unique<Blackboard>();
+  EstimatorTask task;
+  Writer<Attitude> attitude{board->attitude, Role::kLow, "attitude"};
+  Writer<PositionFix> position{board->position_fix, Role::kLow, "position_fix"};
+  Writer<ThrustApplied> thrust{board->thrust_applied, Role::kLow, "thrust_applied"};
+  Reader<VehicleState> states{board->vehicle_state};
+};
+
+TEST_CASE("estimator task: without a fresh heading it publishes nothing", "[high_level][tasks]") {
+  Estimator estimator{PositionSource::kDeadReckoning};
+  CHECK_FALSE(estimator.after_step(kStart));
+  estimator.head(0.5, kStart);
+  REQUIRE(estimator.after_step(kStart));
+  CHECK(estimator.after_step(kStart + max_age::kAttitude));
+  CHECK_FALSE(estimator.after_step(kStart + max_age::kAttitude + Duration{1}));
+  estimator.head(0.5, kStart + seconds{3600});  // of the future
+  CHECK_FALSE(estimator.after_step(kStart + seconds{1}));
+}
+
+TEST_CASE("estimator task: without a fresh position it publishes nothing", "[high_level][tasks]") {
+  for (const auto source : {PositionSource::kGps, PositionSource::kTruth}) {
+    Estimator estimator{source};
+    estimator.head(0.5, kStart);
+    CHECK_FALSE(estimator.after_step(kStart));
+  }
+  Estimator estimator{PositionSource::kGps};
+  estimator.head(0.5, kStart);
+  estimator.fix(35.0, kStart);
+  CHECK(estimator.after_step(kStart));
+  const Time late = kStart + max_age::kPositionFix + Duration{1};
+  estimator.head(0.5, late);
+  CHECK_FALSE(estimator.after_step(late));
+}
+
+TEST_CASE("estimator task: it reckons with thrust that is applied and not with what is stale",
+          "[high_level][tasks]") {
+  Estimator estimator{PositionSource::kDeadReckoning};
+  const auto sail = [&](Time from, bool thrust_goes_on) {
+    double y_m = 0.0;
+    for (Time now = from; now < from + seconds{10}; now += milliseconds{50}) {
+      estimator.head(0.0, now);
+      if (thrust_goes_on) {
+        estimator.drive(16, now);
+      }
+      const auto state = estimator.after_step(now);
+      REQUIRE(state);
+      y_m = state->y_m;
+    }
+    return y_m;
+  };
+  const double sailed_m = sail(kStart, true);
+  CHECK(sailed_m == Approx(2.2).margin(0.1));
+  const double coast_m = sail(kStart + seconds{10}, false) - sailed_m;
+  CHECK(coast_m <= 0.22 * (to_seconds(max_age::kThrustApplied) + 0.3));
+}
+
+TEST_CASE("estimator task: samples that are no numbers leave the estimate finite",
+          "[high_level][tasks]") {
+  Estimator estimator{PositionSource::kGps};
+  for (int i = 0; i < 100; ++i) {
+    const Time now = kStart + i * milliseconds{50};
+    estimator.head(i == 20 ? kNaN : 0.5, now);
+    estimator.fix(i == 40 ? kNaN : i == 60 ? 1e300 : 35.0, now);
+    estimator.drive(16, now);
+    if (const auto state = estimator.after_step(now)) {
+      CHECK(std::isfinite(state->x_m + state->y_m + state->heading_rad + state->surge_m_s));
+      CHECK(std::isfinite(state->current_x_m_s + state->current_y_m_s));
+      CHECK(std::hypot(state->x_m, state->y_m) < 10.0);
+    }
+  }
+  estimator.head(0.5, kStart + seconds{5});
+  CHECK(estimator.after_step(kStart + seconds{5}));
+}
+
+}  // namespace
+}  // namespace lodesman::testing

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "high_level/tasks/planner.h"
+
+#include "tests/support/catch.h"
+#include "tests/unit/tasks/support.h"
+
+namespace lodesman::testing {
+namespace {
+
+[[nodiscard]] PlannerOptions paper_options(bool start_by_itself) {
+  PlannerOptions options;
+  options.replanner.replan_period = milliseconds{1600};
+  options.replanner.answer_patience = seconds{1};
+  options.replanner.waypoint_interval_m = 1.3;
+  options.mission.goals = {{{0.0, 10.0}}};
+  options.mission.waypoint_radius_m = options.mission.goal_radius_m = 0.5;
+  options.sonar_range_m = 30.0;
+  options.start_by_itself = start_by_itself;
+  return options;
+}
+
+struct Planner {
+  explicit Planner(bool start_by_itself = false)
+      : task{*board, Role::kHigh, paper_options(start_by_itself)} {}
+
+  void estimate(double y_m, Time at) {
+    VehicleState here;
+    here.valid_at = at;
+    here.y_m = y_m;
+    state.publish(here, at);
+  }
+  void see(std::uint64_t frame, Time at) {
+    auto seen = std::make_unique<SonarObstacles>();
+    seen->frame = frame;
+    seen->captured = at;
+    obstacles.publish(*seen, at);
+  }
+  void order(OperatorOrder what, Time at) {
+    aborts += what == OperatorOrder::kAbort ? 1U : 0U;
+    OperatorCommand command;
+    command.order = what;
+    command.aborts = aborts;
+    orders.publish(command, at);
+  }
+  [[nodiscard]] MissionState after_step(Time now) {
+    task.step(now);
+    const auto* newest = statuses.latest();
+    REQUIRE(newest != nullptr);
+    CHECK(newest->stamp == now);
+    return newest->value.state;
+  }
+
+  std::uint64_t aborts = 0;
+  std::unique_ptr<Blackboard> board = std::make_unique<Blackboard>();
+  PlannerTask task;
+  Writer<VehicleState> state{board->vehicle_state, Role::kHigh, "vehicle_state"};
+  Writer<SonarObstacles> obstacles{board->sonar_obstacles, Role::kLow, "sonar_obstacles"};
+  Writer<OperatorCommand> orders{board->operator_command, Role::kHigh, "operator_command"};
+  Reader<MissionStatus> statuses{board->mission_status};
+  Reader<PathRequest> requests{board->path_request};
+  Reader<Plan> plans{board->plan};
+};
+
+TEST_CASE("planner task: it starts by itself once there is a fresh estimate",
+          "[high_level][tasks]") {
+  Planner planner{true};
+  CHECK(planner.after_step(kStart) == MissionState::kIdle);
+  planner.estimate(0.0, kStart + seconds{3600});  // of the future
+  CHECK(planner.after_step(kStart) == MissionState::kIdle);
+  planner.estimate(0.0, kStart);
+  CHECK(planner.after_step(kStart + max_age::kVehicleState + Duration{1}) == MissionState::kIdle);
+  planner.estimate(0.0, kStart + seconds{1});
+  CHECK(planner.after_step(kStart + seconds{1}) == MissionState::kUnderWay);
+}
+
+TEST_CASE("planner task: it starts and aborts as it is told and stays aborted",
+          "[high_level][tasks]") {
+  Planner planner;
+  planner.estimate(0.0, kStart);
+  CHECK(planner.after_step(kStart) == MissionState::kIdle);
+  planner.order(OperatorOrder::kStart, kStart);
+  CHECK(planner.after_step(kStart) == MissionState::kUnderWay);
+  planner.order(OperatorOrder::kAbort, kStart);
+  CHECK(planner.after_step(kStart) == MissionState::kAborted);
+  CHECK(planner.after_step(kStart + milliseconds{100}) == MissionState::kAborted);
+}
+
+TEST_CASE("planner task: orders from before it was made are not for it", "[high_level][tasks]") {
+  const auto board = std::make_unique<Blackboard>();
+  Writer<OperatorCommand> orders{board->operator_command, Role::kHigh, "operator_command"};
+  orders.publish({OperatorOrder::kStart}, kStart);
+  PlannerTask task{*board, Role::kHigh, paper_options(false)};
+  task.step(kStart);
+  Reader<MissionStatus> statuses{board->mission_status};
+  REQUIRE(statuses.latest() != nullptr);
+  CHECK(statuses.latest()->value.state == MissionState::kIdle);
+}
+
+TEST_CASE("planner task: a path is asked for in a fresh frame and in no other",
+          "[high_level][tasks]") {
+  Planner planner{true};
+  planner.estimate(0.0, kStart);
+  CHECK(planner.after_step(kStart) == MissionState::kUnderWay);
+  CHECK(planner.requests.next() == nullptr);  // no frame yet
+  planner.see(1, kStart);
+  const Time late = kStart + max_age::kSonarFrame + Duration{1};
+  planner.estimate(0.0, late);
+  CHECK(planner.after_step(late) == MissionState::kUnderWay);
+  CHECK(planner.requests.next() == nullptr);  // it is stale
+  planner.see(2, late);
+  CHECK(planner.after_step(late) == MissionState::kUnderWay);
+  const auto* request = planner.requests.next();
+  REQUIRE(request != nullptr);
+  CHECK(request->value.frame == 2);
+}
+
+TEST_CASE(
+    "planner task: a goal is reached where the estimate says so and not where it is no number",
+    "[high_level][tasks]") {
+  Planner planner{true};
+  planner.estimate(0.0, kStart);
+  CHECK(planner.after_step(kStart) == MissionState::kUnderWay);
+  planner.estimate(kNaN, kStart);
+  CHECK(planner.after_step(kStart) == MissionState::kUnderWay);
+  planner.estimate(9.7, kStart);
+  CHECK(planner.after_step(kStart) == MissionState::kReached);
+}
+
+TEST_CASE("planner task: a sonar that falls silent is said in a plan", "[high_level][tasks]") {
+  Planner planner{true};
+  for (Time now = kStart; now < kStart + seconds{10}; now += milliseconds{100}) {
+    planner.estimate(0.0, now);
+    CHECK(planner.after_step(now) == MissionState::kUnderWay);
+  }
+  const auto* plan = planner.plans.latest();
+  REQUIRE(plan != nullptr);
+  CHECK(plan->value.waypoint_count == 0);
+  CHECK(plan->value.source == WaypointSource::kNone);
+}
+
+}  // namespace
+}  // namespace lodesman::testing
