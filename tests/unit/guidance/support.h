@@ -7,6 +7,7 @@
 
 #include "high_level/guidance/manoeuvre.h"
 #include "high_level/guidance/zones.h"
+#include "high_level/tasks/high_level.h"
 #include "mid_level/messages/tracks.h"
 
 namespace lodesman::testing {
@@ -55,40 +56,29 @@ inline Route route_of(std::initializer_list<Eigen::Vector2d> points) {
   return route;
 }
 
-// As the default profile has them, at 1 m/s.
-inline ZoneOptions default_zones() {
-  ZoneOptions options;
-  options.hull_radius_m = 0.6;
-  options.margin_m = 0.8;
-  options.margin_per_speed_s = 0.2;
-  options.margin_per_turning_radius = 0.07;
-  options.turn_rate_max_rad_s = 0.35;
-  options.least_margin_m = 0.45;
-  options.doubt_sigmas = 2.0;
-  options.doubt_max_m = 1.5;
-  options.slow_share = 0.3;
+// What the shipped configuration says, read anew by each test program.
+inline const HighLevelOptions& shipped_options() {
+  static const HighLevelOptions options =
+      read_high_level_options(TomlDocument::from_file(LODESMAN_DEFAULT_CONFIG).root());
   return options;
 }
 
+inline const PilotOptions& shipped_pilot() { return *shipped_options().planner.replanner.pilot; }
+
+inline ZoneOptions default_zones() { return shipped_pilot().zones; }
+
+// At 1 m/s, where nothing flies faster.
 inline VehicleResponse default_response() {
-  VehicleResponse response;
+  VehicleResponse response = shipped_pilot().response;
   response.speed_max_m_s = 1.0;
-  response.surge_time_s = 2.3;
-  response.turn_rate_max_rad_s = 0.35;
-  response.heading_gain_per_s = 0.7;
-  response.hull_half_length_m = 1.02;
-  response.hull_half_beam_m = 0.6;
-  response.look_ahead_m = 2.8;
+  response.look_ahead_m += shipped_options().controller.look_ahead_s * response.speed_max_m_s;
   return response;
 }
 
+// Flight is asked for by the tests that are about it.
 inline ManoeuvreOptions default_manoeuvres() {
-  ManoeuvreOptions options;
-  options.clearance_m = 0.4;
-  options.core_m = 0.15;
-  options.doubt_sigmas = 2.0;
-  options.doubt_max_m = 1.5;
-  options.switch_gain_s = 2.0;
+  ManoeuvreOptions options = shipped_pilot().manoeuvres;
+  options.flight_speed_m_s = ManoeuvreOptions{}.flight_speed_m_s;
   return options;
 }
 
