@@ -3,14 +3,16 @@
 // command socket.
 #include <spdlog/spdlog.h>
 
-#include <map>
-#include <nlohmann/json.hpp>
+#include <cstdio>
+#include <optional>
 #include <string>
 
 #include "deploy/cli/run/log.h"
 #include "deploy/cli/run/process_main.h"
 #include "deploy/cli/run/settings.h"
 #include "high_level/mission/command_socket.h"
+#include "high_level/mission/token_file.h"
+#include "high_level/tasks/operator_desk.h"
 #include "mid_level/base/clock.h"
 #include "mid_level/blackboard/segment.h"
 #include "mid_level/runtime/run_realtime.h"
@@ -18,66 +20,31 @@
 namespace lodesman {
 namespace {
 
-const std::map<std::string, OperatorOrder> kOrders{{"start", OperatorOrder::kStart},
-                                                   {"abort", OperatorOrder::kAbort},
-                                                   {"hold", OperatorOrder::kHold},
-                                                   {"resume", OperatorOrder::kResume}};
 constexpr Duration kSegmentPatience = std::chrono::seconds{5};
 
-// Answers the operator; lives on the command socket's thread.
-class OperatorDesk {
+// The operator's way in: the desk, the socket before it, and the token that opens it, which is
+// given or made for this run.
+class WayIn {
  public:
-  explicit OperatorDesk(Blackboard& board)
-      : orders_{board.operator_command, Role::kHigh, "operator_command"},
-        mission_{board.mission_status},
-        state_{board.vehicle_state},
-        plan_{board.plan},
-        helm_{board.helm_command} {}
-
-  [[nodiscard]] std::string reply_to(const std::string& command) {
-    if (command == "status") {
-      return status().dump();
+  WayIn(Blackboard& board, const cli::CommandSocketSettings& settings)
+      : desk_{board, Role::kHigh, [] { return SteadyClock{}.now(); }},
+        token_{settings.token_file.empty() ? random_token() : read_token(settings.token_file)},
+        socket_{{settings.address, settings.port, token_},
+                [this](const std::string& command) { return desk_.answer(command); }} {
+    if (settings.token_file.empty()) {
+      token_file_.emplace(socket_.port(), token_);
     }
-    if (const auto order = kOrders.find(command); order != kOrders.end()) {
-      orders_.publish({order->second}, SteadyClock{}.now());
-      return nlohmann::json{{"ok", true}}.dump();
+    if (settings.port == 0) {  // whoever asked for any port must be told which
+      std::fprintf(stderr, "lodesman-high: command socket on %s port %d\n",
+                   settings.address.c_str(), int{socket_.port()});
     }
-    return nlohmann::json{{"ok", false}, {"error", "unknown command: " + command}}.dump();
   }
 
  private:
-  [[nodiscard]] nlohmann::ordered_json status() {
-    const Time now = SteadyClock{}.now();
-    nlohmann::ordered_json reply{{"ok", true}};
-    if (const auto* mission = mission_.latest(); mission != nullptr) {
-      const MissionStatus& m = mission->value;
-      reply["state"] = to_string(m.state);
-      reply["time_s"] = m.started == Time{} ? 0.0 : to_seconds(now - m.started);
-      reply["goal_m"] = {m.goal_x_m, m.goal_y_m};
-    }
-    if (const auto* state = state_.latest(); state != nullptr) {
-      reply["position_m"] = {state->value.x_m, state->value.y_m};
-      reply["heading_deg"] = compass_deg(state->value.heading_rad);
-      reply["state_age_s"] = to_seconds(now - state->stamp);
-    }
-    if (const auto* plan = plan_.latest(); plan != nullptr) {
-      reply["plan"] = {{"id", plan->value.id},
-                       {"reason", to_string(plan->value.reason)},
-                       {"rung", to_string(plan->value.rung)},
-                       {"waypoints", to_string(plan->value.source)},
-                       {"age_s", to_seconds(now - plan->stamp)}};
-    }
-    if (const auto* helm = helm_.latest(); helm != nullptr) {
-      reply["helm"] = to_string(helm->value.reason);
-    }
-    return reply;
-  }
-
-  Writer<OperatorCommand> orders_;
-  Reader<MissionStatus> mission_;
-  Reader<VehicleState> state_;
-  Reader<Plan> plan_;
-  Reader<HelmCommand> helm_;
+  OperatorDesk desk_;
+  std::string token_;
+  CommandSocket socket_;
+  std::optional<TokenFile> token_file_;
 };
 
 void report_what_was_found(const SharedBlackboard& board) {
@@ -98,11 +65,7 @@ int run(const cli::ProcessOptions& options, bool start_by_itself) {
   HighLevelOptions high_options = cli::high_level_options(configuration, scenario);
   high_options.planner.start_by_itself = start_by_itself;
   HighLevel high{board.writable(), Role::kHigh, high_options};
-  OperatorDesk desk{board.writable()};
-  const auto settings = cli::command_socket_settings(configuration);
-  const CommandSocket socket{{settings.address, settings.port, ""},
-                             [&](const std::string& command) { return desk.reply_to(command); }};
-  spdlog::info("command socket on {}:{}", settings.address, socket.port());
+  const WayIn way_in{board.writable(), cli::command_socket_settings(configuration)};
   // lodesman-low, which has the same rights, warns if they are missing.
   (void)set_up_realtime();
   const auto tasks = high.tasks();

@@ -6,10 +6,6 @@
 namespace lodesman {
 namespace {
 
-[[nodiscard]] std::string refusal(const std::string& reason) {
-  return nlohmann::json{{"ok", false}, {"error", reason}}.dump();
-}
-
 // The same time for every wrong token, whatever it has right.
 [[nodiscard]] bool same_token(const std::string& a, const std::string& b) noexcept {
   unsigned difference = a.size() == b.size() ? 0U : 1U;
@@ -19,21 +15,31 @@ namespace {
   return difference == 0U;
 }
 
+[[nodiscard]] std::string text_of(const nlohmann::json& request, const char* key) {
+  const auto found = request.find(key);
+  return found != request.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
 }  // namespace
 
-std::string reply_to(const std::string& line, const std::string& token,
-                     const CommandHandler& handler) {
+CommandLine read_command_line(const std::string& line, const std::string& token) {
   const auto request = nlohmann::json::parse(line, nullptr, false);
   if (!request.is_object() || !request.contains("command") || !request["command"].is_string()) {
-    return refusal("a command is a line {\"command\": \"...\"}");
+    return {"", refusal("a command is a line {\"command\": \"...\", \"token\": \"...\"}")};
   }
-  const auto found = request.find("token");
-  const std::string given =
-      found != request.end() && found->is_string() ? found->get<std::string>() : "";
-  if (!token.empty() && !same_token(given, token)) {
-    return refusal("wrong or missing token");
+  if (request.contains("protocol") && request["protocol"] != kCommandProtocol) {
+    return {"", refusal("this is protocol " + std::to_string(kCommandProtocol))};
   }
-  return handler(request["command"].get<std::string>());
+  if (token.empty() || !same_token(text_of(request, "token"), token)) {
+    return {"", refusal("wrong or missing token")};
+  }
+  return {request["command"].get<std::string>(), ""};
 }
+
+std::string refusal(const std::string& reason) {
+  return nlohmann::ordered_json{{"ok", false}, {"error", reason}}.dump();
+}
+
+bool stops_the_boat(const std::string& command) noexcept { return command == "abort"; }
 
 }  // namespace lodesman

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "high_level/mission/command_socket.h"
 
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <list>
 #include <thread>
+#include <tuple>
 #include <utility>  // Boost 1.74 uses std::exchange without including it
 
 #include <boost/asio.hpp>
@@ -11,40 +18,237 @@
 namespace lodesman {
 namespace asio = boost::asio;
 using asio::ip::tcp;
+using boost::system::error_code;
 
 namespace {
 
-constexpr std::size_t kMaxLine = 4096;  // [bytes] a longer command ends its connection
-constexpr int kMaxSessions = 16;
+constexpr std::size_t kMaxLine = 4096;  // [bytes] a longer command ends its session
+constexpr int kAcceptsPerTurn = 64;     // before the sessions have their turn
+constexpr std::chrono::milliseconds kAnswerPeriod{5};
+constexpr std::chrono::milliseconds kIdleLookPeriod{100};
+constexpr std::chrono::milliseconds kAcceptPause{10};
+
+// In the order in which places are given up.
+enum class Standing { kStranger, kKnown, kAwaitsAnswer, kAwaitsAbort };
+
+struct Session {
+  explicit Session(tcp::socket socket_in)
+      : socket{std::move(socket_in)}, timer{socket.get_executor()} {}
+
+  void end() noexcept {
+    error_code ignored;
+    // At once: nothing of it lingers in the kernel.
+    socket.set_option(asio::socket_base::linger{true, 0}, ignored);
+    socket.close(ignored);
+    timer.cancel();
+  }
+
+  tcp::socket socket;
+  asio::steady_timer timer;
+  asio::steady_timer::time_point heard = asio::steady_timer::clock_type::now();
+  Standing standing = Standing::kStranger;
+};
+
+// A descriptor in reserve, given up to let an operator in when the process has no more.
+class SpareDescriptor {
+ public:
+  SpareDescriptor() noexcept { take(); }
+  SpareDescriptor(const SpareDescriptor&) = delete;
+  SpareDescriptor& operator=(const SpareDescriptor&) = delete;
+  ~SpareDescriptor() { give(); }
+
+  void take() noexcept {
+    if (descriptor_ < 0) {
+      descriptor_ = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    }
+  }
+  // Whether there was one to give.
+  bool give() noexcept { return descriptor_ >= 0 && close(std::exchange(descriptor_, -1)) == 0; }
+
+ private:
+  int descriptor_ = -1;
+};
+
+asio::awaitable<std::string> reply_of(Session& session, const Answer& answer) {
+  for (;;) {
+    if (auto reply = answer(); reply) {
+      co_return *std::move(reply);
+    }
+    session.timer.expires_after(kAnswerPeriod);
+    co_await session.timer.async_wait(asio::use_awaitable);
+  }
+}
+
+asio::awaitable<void> send_line(Session& session, std::string line) {
+  line += '\n';
+  co_await asio::async_write(session.socket, asio::buffer(line), asio::use_awaitable);
+}
 
 }  // namespace
 
 struct CommandSocket::Impl {
+  using Sessions = std::list<std::shared_ptr<Session>>;
+
   Impl(const CommandSocketOptions& options_in, CommandHandler handler_in)
       : options{options_in}, handler{std::move(handler_in)} {}
 
-  asio::awaitable<void> serve(tcp::socket socket) {
-    ++sessions;
+  // Line by line: a session that sends many at once waits for the others after each.
+  asio::awaitable<void> converse(Session& session) {
     std::string buffer;
-    try {
-      for (;;) {
-        const std::size_t length = co_await asio::async_read_until(
-            socket, asio::dynamic_buffer(buffer, kMaxLine), '\n', asio::use_awaitable);
-        const std::string reply = reply_to(buffer.substr(0, length), options.token, handler) + "\n";
-        buffer.erase(0, length);
-        co_await asio::async_write(socket, asio::buffer(reply), asio::use_awaitable);
+    for (;;) {
+      const std::size_t length = co_await asio::async_read_until(
+          session.socket, asio::dynamic_buffer(buffer, kMaxLine), '\n', asio::use_awaitable);
+      session.heard = asio::steady_timer::clock_type::now();
+      const CommandLine line = read_command_line(buffer.substr(0, length), options.token);
+      buffer.erase(0, length);
+      if (!line.refusal.empty()) {
+        co_await send_line(session, line.refusal);
+        co_return;
       }
-    } catch (const boost::system::system_error&) {
-      // The other side is gone, or its line is too long: this session ends.
+      session.standing =
+          stops_the_boat(line.command) ? Standing::kAwaitsAbort : Standing::kAwaitsAnswer;
+      const Answer answer = handler(line.command);
+      std::string reply = co_await reply_of(session, answer);
+      session.standing = Standing::kKnown;
+      co_await send_line(session, std::move(reply));
     }
-    --sessions;
+  }
+
+  asio::awaitable<void> serve(std::shared_ptr<Session> session) {
+    try {
+      co_await converse(*session);
+    } catch (const std::exception&) {
+      // The other side is gone, its line is too long, or it gave up its place: this session ends.
+    }
+    sessions.remove(session);
+    spare.take();
+  }
+
+  void put_out(Sessions::iterator session) {
+    (*session)->end();
+    sessions.erase(session);
+  }
+
+  // Whether a session gave up its place.
+  [[nodiscard]] bool make_room() {
+    const auto least =
+        std::min_element(sessions.begin(), sessions.end(), [](const auto& a, const auto& b) {
+          return std::tie(a->standing, a->heard) < std::tie(b->standing, b->heard);
+        });
+    if (least == sessions.end() || (*least)->standing == Standing::kAwaitsAbort) {
+      return false;
+    }
+    put_out(least);
+    return true;
+  }
+
+  void admit(tcp::socket socket) {
+    if (sessions.size() < kMaxSessions || make_room()) {
+      sessions.push_back(std::make_shared<Session>(std::move(socket)));
+      asio::co_spawn(context, serve(sessions.back()), asio::detached);
+    }
+  }
+
+  // Without a descriptor left, accept() fails whether somebody waits or not.
+  [[nodiscard]] bool somebody_waits() {
+    pollfd listening{acceptor.native_handle(), POLLIN, 0};
+    return poll(&listening, 1, 0) > 0;
+  }
+
+  // Takes in who waits. False when that fails and nothing could be done about it.
+  [[nodiscard]] bool accept_some() {
+    for (int i = 0; i < kAcceptsPerTurn; ++i) {
+      error_code error;
+      tcp::socket socket{context};
+      acceptor.accept(socket, error);
+      if (error == asio::error::would_block || (error && !somebody_waits())) {
+        return true;
+      }
+      if (!error) {
+        admit(std::move(socket));
+      } else if (!make_room() && !spare.give()) {
+        return false;
+      }
+    }
+    return true;
   }
 
   asio::awaitable<void> listen() {
+    asio::steady_timer pause{context};
     for (;;) {
-      tcp::socket socket = co_await acceptor.async_accept(asio::use_awaitable);
-      if (sessions < kMaxSessions) {
-        asio::co_spawn(context, serve(std::move(socket)), asio::detached);
+      bool ok = false;
+      try {
+        co_await acceptor.async_wait(tcp::acceptor::wait_read, asio::use_awaitable);
+        ok = accept_some();
+      } catch (const std::exception&) {
+        // Out of something: a moment later there may be more.
+      }
+      error_code ignored;
+      pause.expires_after(ok ? std::chrono::milliseconds{0} : kAcceptPause);
+      co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, ignored));
+    }
+  }
+
+  asio::awaitable<void> put_out_the_silent() {
+    asio::steady_timer timer{context};
+    for (;;) {
+      error_code ignored;
+      timer.expires_after(kIdleLookPeriod);
+      co_await timer.async_wait(asio::redirect_error(asio::use_awaitable, ignored));
+      const auto now = asio::steady_timer::clock_type::now();
+      for (auto next = sessions.begin(); next != sessions.end();) {
+        const auto session = next++;
+        const Duration limit = (*session)->standing == Standing::kStranger
+                                   ? options.stranger_idle_limit
+                                   : options.idle_limit;
+        if (now - (*session)->heard > limit) {
+          put_out(session);
+        }
+      }
+      spare.take();
+    }
+  }
+
+  // Throws StartupError.
+  void open() {
+    error_code error;
+    const auto address = asio::ip::make_address(options.address, error);
+    if (error) {
+      throw StartupError("command_socket.address: \"" + options.address + "\" is no IP address");
+    }
+    if (!address.is_loopback()) {
+      throw StartupError("command_socket.address: " + options.address +
+                         " is not loopback, and the token would cross the network in the clear; "
+                         "use loopback and a tunnel");
+    }
+    if (options.token.empty()) {
+      throw StartupError("command_socket.token_file: a token is required");
+    }
+    const tcp::endpoint endpoint{address, options.port};
+    acceptor.open(endpoint.protocol(), error);
+    if (!error) {
+      acceptor.set_option(tcp::acceptor::reuse_address{true}, error);
+      acceptor.bind(endpoint, error);
+    }
+    if (!error) {
+      acceptor.listen(asio::socket_base::max_listen_connections, error);
+    }
+    if (!error) {
+      acceptor.non_blocking(true, error);
+    }
+    if (error) {
+      throw StartupError("command_socket.port: cannot listen on port " +
+                         std::to_string(options.port) + ": " + error.message());
+    }
+  }
+
+  // An exception that leaves a handler ends run(), not the socket.
+  void run() {
+    while (!context.stopped()) {
+      try {
+        context.run();
+      } catch (const std::exception&) {
+        continue;
       }
     }
   }
@@ -53,36 +257,17 @@ struct CommandSocket::Impl {
   CommandHandler handler;
   asio::io_context context{1};
   tcp::acceptor acceptor{context};
-  int sessions = 0;
+  Sessions sessions;
+  SpareDescriptor spare;
   std::jthread thread;
 };
 
 CommandSocket::CommandSocket(const CommandSocketOptions& options, CommandHandler handler)
     : impl_{std::make_unique<Impl>(options, std::move(handler))} {
-  boost::system::error_code error;
-  const auto address = asio::ip::make_address(options.address, error);
-  if (error) {
-    throw StartupError("command_socket.address: \"" + options.address + "\" is no IP address");
-  }
-  if (!address.is_loopback() && options.token.empty()) {
-    throw StartupError("command_socket.address: " + options.address +
-                       " is not loopback, so a token is required");
-  }
-  const tcp::endpoint endpoint{address, options.port};
-  impl_->acceptor.open(endpoint.protocol(), error);
-  if (!error) {
-    impl_->acceptor.set_option(tcp::acceptor::reuse_address{true}, error);
-    impl_->acceptor.bind(endpoint, error);
-  }
-  if (!error) {
-    impl_->acceptor.listen(asio::socket_base::max_listen_connections, error);
-  }
-  if (error) {
-    throw StartupError("command_socket.port: cannot listen on port " +
-                       std::to_string(options.port) + ": " + error.message());
-  }
+  impl_->open();
   asio::co_spawn(impl_->context, impl_->listen(), asio::detached);
-  impl_->thread = std::jthread{[impl = impl_.get()] { impl->context.run(); }};
+  asio::co_spawn(impl_->context, impl_->put_out_the_silent(), asio::detached);
+  impl_->thread = std::jthread{[impl = impl_.get()] { impl->run(); }};
 }
 
 CommandSocket::~CommandSocket() {
@@ -91,7 +276,7 @@ CommandSocket::~CommandSocket() {
 }
 
 std::uint16_t CommandSocket::port() const noexcept {
-  boost::system::error_code error;
+  error_code error;
   return impl_->acceptor.local_endpoint(error).port();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The operator's way in: JSON lines over TCP, on loopback unless told otherwise. It runs a thread
-// of its own, beside the tasks and never in their way, and calls its handler from there.
+// The operator's way in: JSON lines over TCP, on loopback. It runs a thread of its own, beside the
+// tasks and never in their way, and calls its handler and the answers from there.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,22 @@
 #include <string>
 
 #include "high_level/mission/command_line.h"
+#include "mid_level/base/time.h"
 
 namespace lodesman {
 
 struct CommandSocketOptions {
-  std::string address;     // an IP address; any but loopback needs a token
+  std::string address;     // a loopback IP address
   std::uint16_t port = 0;  // 0: one that is free
-  std::string token;       // empty: none is asked for
+  std::string token;       // that every line must carry; not empty
+  // How long a session may be silent: before its first command, and after one.
+  Duration stranger_idle_limit = std::chrono::seconds{2};
+  Duration idle_limit = std::chrono::seconds{60};
 };
+
+// Sessions at once. One more takes the place of the one that has been silent longest, strangers
+// first; a session that waits for its abort is never put out.
+inline constexpr std::size_t kMaxSessions = 128;
 
 class CommandSocket {
  public:

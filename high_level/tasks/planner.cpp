@@ -38,8 +38,15 @@ PlannerTask::PlannerTask(Blackboard& board, Role role, PlannerOptions options)
       requests_{board.path_request, role, "path_request"},
       plans_{board.plan, role, "plan"},
       statuses_{board.mission_status, role, "mission_status"} {
-  while (orders_.next() != nullptr) {
-    // Orders from before this program started are not for it.
+  // Orders from before this program started are not for it, but an abort stands.
+  std::uint64_t aborts = 0;
+  while (const auto* order = orders_.next()) {
+    aborts = std::max(aborts, order->value.aborts);
+  }
+  Reader<MissionStatus> before{board.mission_status};
+  const auto* last = before.latest();
+  if (mission_.inherit(last != nullptr ? last->value : MissionStatus{}, aborts)) {
+    options_.start_by_itself = false;
   }
 }
 
@@ -62,12 +69,16 @@ void PlannerTask::step(Time now) noexcept {
 
 void PlannerTask::take_orders(Time now, bool estimate_is_fresh) noexcept {
   const Time started = mission_.status().started;
+  const std::uint64_t aborts = mission_.status().aborts;
+  while (const auto* order = orders_.next()) {
+    mission_.take({order->value, order->sequence, order->stamp}, position_, now);
+  }
+  if (mission_.status().aborts != aborts) {
+    options_.start_by_itself = false;  // not any more
+  }
   if (options_.start_by_itself && estimate_is_fresh) {
     options_.start_by_itself = false;
-    mission_.order(OperatorOrder::kStart, position_, now);
-  }
-  while (const auto* order = orders_.next()) {
-    mission_.order(order->value.order, position_, now);
+    mission_.start(now);
   }
   if (mission_.status().started != started) {
     replanner_.start(now);

@@ -11,17 +11,18 @@ namespace lodesman::fuzz {
 void command_line(std::string_view input) {
   using nlohmann::json;
   for (const std::string token : {"", "secret"}) {
-    bool handled = false;
-    const std::string reply = reply_to(std::string{input}, token, [&](const std::string& command) {
-      handled = true;
-      return json{{"ok", true}, {"did", command}}.dump();
-    });
-    const json read = json::parse(reply, nullptr, false);
-    require(read.is_object() && reply.find('\n') == std::string::npos,
-            "a reply is no JSON document on one line");
-    require(read.at("ok") == handled, "a reply is not the handler's, or not a refusal");
-    require(!handled || token.empty() || json::parse(input).at("token") == token,
-            "a command is served without its token");
+    const CommandLine read = read_command_line(std::string{input}, token);
+    if (read.refusal.empty()) {
+      const json request = json::parse(input);
+      require(!token.empty() && request.at("token") == token,
+              "a command is served without its token");
+      require(request.at("command") == read.command, "another command is served than was given");
+      continue;
+    }
+    const json reply = json::parse(read.refusal, nullptr, false);
+    require(reply.is_object() && read.refusal.find('\n') == std::string::npos,
+            "a refusal is no JSON document on one line");
+    require(reply.at("ok") == false && read.command.empty(), "what is refused is served");
   }
 }
 

@@ -138,7 +138,8 @@ Scenario with_planned_zones(Scenario scenario, const HighLevelOptions& options) 
 
 CommandSocketSettings command_socket_settings(const TomlDocument& configuration) {
   const TomlTable table = configuration.root().table("command_socket");
-  return {table.text("address", 64), static_cast<std::uint16_t>(table.integer("port", 0, 65535))};
+  return {table.text("address", 64), static_cast<std::uint16_t>(table.integer("port", 0, 65535)),
+          table.text("token_file", 4096, 0)};
 }
 
 DeviceAddresses device_addresses(const TomlDocument& configuration) {

@@ -50,6 +50,7 @@ namespace lodesman::cli {
 struct CommandSocketSettings {
   std::string address;
   std::uint16_t port = 0;
+  std::string token_file;  // empty: lodesman-high writes one by itself
 };
 [[nodiscard]] CommandSocketSettings command_socket_settings(const TomlDocument& configuration);
 struct DeviceAddresses {

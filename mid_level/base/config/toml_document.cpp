@@ -248,13 +248,15 @@ Duration TomlTable::duration(std::string_view key, Range seconds) const {
   return from_seconds(number(key, seconds));
 }
 
-std::string TomlTable::text(std::string_view key, std::size_t max_length) const {
+std::string TomlTable::text(std::string_view key, std::size_t max_length,
+                            std::size_t min_length) const {
   const auto* value = static_cast<const toml::node*>(require(key))->as_string();
   if (value == nullptr) {
     refuse(key, "must be a text");
   }
-  if (value->get().empty() || value->get().size() > max_length) {
-    refuse(key, "must have 1 to " + std::to_string(max_length) + " characters");
+  if (value->get().size() < min_length || value->get().size() > max_length) {
+    refuse(key, "must have " + std::to_string(min_length) + " to " + std::to_string(max_length) +
+                    " characters");
   }
   return value->get();
 }

@@ -84,7 +84,9 @@ class TomlTable {
   [[nodiscard]] bool boolean_or(std::string_view key, bool otherwise) const;
   // Seconds in the file.
   [[nodiscard]] Duration duration(std::string_view key, Range seconds) const;
-  [[nodiscard]] std::string text(std::string_view key, std::size_t max_length) const;
+  // Of at least one character, unless `min_length` is 0.
+  [[nodiscard]] std::string text(std::string_view key, std::size_t max_length,
+                                 std::size_t min_length = 1) const;
   // One of a few words; gives its index in `words`.
   [[nodiscard]] std::size_t choice(std::string_view key,
                                    std::initializer_list<std::string_view> words) const;

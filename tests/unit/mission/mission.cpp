@@ -7,14 +7,28 @@ using namespace lodesman;
 
 namespace {
 Time s(double seconds) { return Time{from_seconds(seconds)}; }
-Mission two_goals() { return Mission{{{{{0, 5}}, {{0, 20}}}, 0.5, 1.0}}; }
+
+// A mission, and the desk that counts its orders.
+struct Ordered {
+  Mission mission{{{{{0, 5}}, {{0, 20}}}, 0.5, 1.0}};
+  std::uint64_t aborts = 0;
+  std::uint64_t sequence = 0;
+
+  OrderAnswer give(OperatorOrder order, Time now, const WorldPoint& position = {}) {
+    aborts += order == OperatorOrder::kAbort ? 1 : 0;
+    mission.take({{order, aborts}, ++sequence, now}, position, now);
+    return mission.status().answer;
+  }
+  [[nodiscard]] MissionState state() const { return mission.status().state; }
+};
 }  // namespace
 
 TEST_CASE("mission: it waits for its start and ends at the last goal", "[high_level][mission]") {
-  Mission mission = two_goals();
+  Ordered ordered;
+  Mission& mission = ordered.mission;
   mission.advance({{0, 20}}, s(1));
   CHECK(mission.status().state == MissionState::kIdle);
-  mission.order(OperatorOrder::kStart, {}, s(2));
+  ordered.give(OperatorOrder::kStart, s(2));
   CHECK(mission.status().started == s(2));
   CHECK(mission.goal().xy_m.y() == Approx(5));
   mission.advance({{0.4, 5}}, s(3));
@@ -28,48 +42,146 @@ TEST_CASE("mission: it waits for its start and ends at the last goal", "[high_le
 
 TEST_CASE("mission: an abort holds until a new start, which begins at the first goal",
           "[high_level][mission]") {
-  Mission mission = two_goals();
-  mission.order(OperatorOrder::kStart, {}, s(1));
-  mission.advance({{0, 5}}, s(2));
-  mission.order(OperatorOrder::kAbort, {}, s(3));
-  mission.advance({{0, 20}}, s(4));
-  CHECK(mission.status().state == MissionState::kAborted);
-  mission.order(OperatorOrder::kNone, {}, s(5));
-  CHECK(mission.status().state == MissionState::kAborted);
-  mission.order(OperatorOrder::kStart, {}, s(6));
-  CHECK(mission.under_way());
-  CHECK(mission.status().goal_index == 0);
-  CHECK(mission.status().started == s(6));
+  Ordered ordered;
+  ordered.give(OperatorOrder::kStart, s(1));
+  ordered.mission.advance({{0, 5}}, s(2));
+  ordered.give(OperatorOrder::kAbort, s(3));
+  ordered.mission.advance({{0, 20}}, s(4));
+  CHECK(ordered.state() == MissionState::kAborted);
+  CHECK(ordered.mission.status().ended == s(3));
+  ordered.give(OperatorOrder::kNone, s(5));
+  CHECK(ordered.state() == MissionState::kAborted);
+  CHECK(ordered.give(OperatorOrder::kStart, s(6)) == OrderAnswer::kObeyed);
+  CHECK(ordered.mission.under_way());
+  CHECK(ordered.mission.status().goal_index == 0);
+  CHECK(ordered.mission.status().started == s(6));
+}
+
+TEST_CASE("mission: of the orders taken at one time an abort wins, wherever it stands",
+          "[high_level][mission]") {
+  using enum OperatorOrder;
+  const std::vector<std::vector<OperatorOrder>> batches{{kAbort},
+                                                        {kAbort, kStart},
+                                                        {kStart, kAbort},
+                                                        {kStart, kAbort, kStart},
+                                                        {kAbort, kHold},
+                                                        {kHold, kResume, kAbort, kResume, kStart},
+                                                        {kAbort, kAbort, kStart, kHold, kResume}};
+  for (const MissionState before : {MissionState::kIdle, MissionState::kUnderWay,
+                                    MissionState::kHolding, MissionState::kAborted}) {
+    for (const auto& batch : batches) {
+      Ordered ordered;
+      if (before != MissionState::kIdle) {
+        ordered.give(kStart, s(1));
+      }
+      if (before == MissionState::kHolding) {
+        ordered.give(kHold, s(2));
+      } else if (before == MissionState::kAborted) {
+        ordered.give(kAbort, s(2));
+      }
+      REQUIRE(ordered.state() == before);
+      for (const OperatorOrder order : batch) {
+        ordered.give(order, s(3));
+      }
+      CHECK(ordered.state() == MissionState::kAborted);
+      CHECK(ordered.mission.status().aborts == ordered.aborts);
+      // Later, by one who can know of the abort.
+      CHECK(ordered.give(kStart, s(3.05)) == OrderAnswer::kObeyed);
+      CHECK(ordered.mission.under_way());
+    }
+  }
+}
+
+TEST_CASE("mission: an abort that was lost is obeyed by its count, before what brings the count",
+          "[high_level][mission]") {
+  for (const OperatorOrder order : {OperatorOrder::kStart, OperatorOrder::kHold,
+                                    OperatorOrder::kResume, OperatorOrder::kNone}) {
+    Ordered ordered;
+    ordered.give(OperatorOrder::kStart, s(1));
+    ordered.aborts = 7;  // seven orders that were overwritten
+    ordered.give(order, s(2));
+    CHECK(ordered.state() == MissionState::kAborted);
+    CHECK(ordered.mission.status().aborts == 7);
+    CHECK(ordered.mission.status().ended == s(2));
+    const bool answered = order != OperatorOrder::kNone;
+    CHECK((ordered.mission.status().answer == OrderAnswer::kAborted) == answered);
+  }
+}
+
+TEST_CASE("mission: a start that was ordered before an abort is void, however late it comes",
+          "[high_level][mission]") {
+  Ordered ordered;
+  ordered.give(OperatorOrder::kStart, s(1));
+  ordered.give(OperatorOrder::kAbort, s(2));
+  ordered.mission.take({{OperatorOrder::kStart, 0}, 9, s(1.9)}, {}, s(2.5));
+  CHECK(ordered.state() == MissionState::kAborted);
+  CHECK(ordered.mission.status().answer == OrderAnswer::kAborted);
+  CHECK(ordered.mission.status().order == 9);
+}
+
+TEST_CASE("mission: an order is void once its giver has been told so, an abort never is",
+          "[high_level][mission]") {
+  Ordered ordered;
+  const Time late = s(1) + kOrderPatience + Duration{1};
+  ordered.mission.take({{OperatorOrder::kStart, 0}, 1, s(1)}, {}, late);
+  CHECK(ordered.mission.status().answer == OrderAnswer::kTooOld);
+  CHECK(ordered.state() == MissionState::kIdle);
+  ordered.mission.take({{OperatorOrder::kStart, 0}, 2, s(1)}, {}, s(1) + kOrderPatience);
+  CHECK(ordered.mission.status().answer == OrderAnswer::kObeyed);
+  ordered.mission.take({{OperatorOrder::kAbort, 1}, 3, s(0)}, {}, s(100));
+  CHECK(ordered.state() == MissionState::kAborted);
+}
+
+TEST_CASE("mission: an abort stands over a restart, obeyed or not", "[high_level][mission]") {
+  MissionStatus before;
+  before.state = MissionState::kUnderWay;
+  before.aborts = 3;
+  Ordered ordered;
+  CHECK_FALSE(ordered.mission.inherit(before, 3));
+  CHECK(ordered.state() == MissionState::kIdle);
+  CHECK(ordered.mission.status().aborts == 3);
+  Ordered unobeyed;
+  CHECK(unobeyed.mission.inherit(before, 4));
+  CHECK(unobeyed.state() == MissionState::kAborted);
+  CHECK(unobeyed.mission.status().aborts == 4);
+  before.state = MissionState::kAborted;
+  Ordered obeyed;
+  CHECK(obeyed.mission.inherit(before, 3));
+  CHECK(obeyed.state() == MissionState::kAborted);
+  obeyed.aborts = 3;
+  CHECK(obeyed.give(OperatorOrder::kStart, s(1)) == OrderAnswer::kObeyed);
+  CHECK(obeyed.mission.under_way());
 }
 
 TEST_CASE("mission: a start under way changes nothing", "[high_level][mission]") {
-  Mission mission = two_goals();
-  mission.order(OperatorOrder::kStart, {}, s(1));
-  mission.advance({{0, 5}}, s(2));
-  mission.order(OperatorOrder::kStart, {}, s(3));
-  CHECK(mission.status().goal_index == 1);
-  CHECK(mission.status().started == s(1));
+  Ordered ordered;
+  ordered.give(OperatorOrder::kStart, s(1));
+  ordered.mission.advance({{0, 5}}, s(2));
+  CHECK(ordered.give(OperatorOrder::kStart, s(3)) == OrderAnswer::kObeyed);
+  CHECK(ordered.mission.status().goal_index == 1);
+  CHECK(ordered.mission.status().started == s(1));
 }
 
 TEST_CASE("mission: a hold stays where it was given, and resume goes on", "[high_level][mission]") {
-  Mission mission = two_goals();
-  mission.order(OperatorOrder::kHold, {{0, 3}}, s(0.5));
-  CHECK(mission.status().state == MissionState::kIdle);  // nothing to hold from
-  mission.order(OperatorOrder::kStart, {}, s(1));
-  mission.advance({{0, 5}}, s(2));
-  mission.order(OperatorOrder::kResume, {{0, 7}}, s(2.5));
+  Ordered ordered;
+  const Mission& mission = ordered.mission;
+  CHECK(ordered.give(OperatorOrder::kHold, s(0.5), {{0, 3}}) == OrderAnswer::kNotUnderWay);
+  CHECK(ordered.state() == MissionState::kIdle);  // nothing to hold from
+  ordered.give(OperatorOrder::kStart, s(1));
+  ordered.mission.advance({{0, 5}}, s(2));
+  CHECK(ordered.give(OperatorOrder::kResume, s(2.5), {{0, 7}}) == OrderAnswer::kNotHolding);
   CHECK(mission.goal().xy_m.y() == Approx(20));
-  mission.order(OperatorOrder::kHold, {{1, 8}}, s(3));
+  CHECK(ordered.give(OperatorOrder::kHold, s(3), {{1, 8}}) == OrderAnswer::kObeyed);
   CHECK(mission.holding());
   CHECK(mission.goal().xy_m.x() == Approx(1));
   CHECK(mission.goal().xy_m.y() == Approx(8));
-  mission.advance({{0, 20}}, s(4));
+  ordered.mission.advance({{0, 20}}, s(4));
   CHECK(mission.holding());
-  mission.order(OperatorOrder::kResume, {{1, 9}}, s(5));
+  CHECK(ordered.give(OperatorOrder::kResume, s(5), {{1, 9}}) == OrderAnswer::kObeyed);
   CHECK(mission.under_way());
   CHECK(mission.goal().xy_m.y() == Approx(20));
   CHECK(mission.status().started == s(1));
-  mission.order(OperatorOrder::kHold, {{1, 9}}, s(6));
-  mission.order(OperatorOrder::kAbort, {{1, 9}}, s(7));
-  CHECK(mission.status().state == MissionState::kAborted);
+  ordered.give(OperatorOrder::kHold, s(6), {{1, 9}});
+  ordered.give(OperatorOrder::kAbort, s(7), {{1, 9}});
+  CHECK(ordered.state() == MissionState::kAborted);
 }
