@@ -3,7 +3,6 @@
 // command socket.
 #include <spdlog/spdlog.h>
 
-#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -35,8 +34,8 @@ class WayIn {
       token_file_.emplace(socket_.port(), token_);
     }
     if (settings.port == 0) {  // whoever asked for any port must be told which
-      std::fprintf(stderr, "lodesman-high: command socket on %s port %d\n",
-                   settings.address.c_str(), int{socket_.port()});
+      cli::say("lodesman-high: command socket on " + settings.address + " port " +
+               std::to_string(socket_.port()));
     }
   }
 

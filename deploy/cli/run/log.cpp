@@ -39,4 +39,8 @@ void log_without_blocking() {
   spdlog::set_level(level);
 }
 
+void say(const std::string& line) {
+  static_cast<void>(NonblockingStream{STDERR_FILENO}.write(line + "\n"));
+}
+
 }  // namespace lodesman::cli
