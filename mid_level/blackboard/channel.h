@@ -39,10 +39,16 @@ struct Stamped {
 // Which program writes a channel; stored in the channel as its writer's claim.
 enum class Role : std::uint32_t { kNobody = 0, kLow = 1, kHigh = 2, kOperator = 3 };
 
-// One place of a ring. The value lies in 64-bit atomic words: the version is odd while the words
-// change, every word is stored with release and loaded with acquire, so that whoever sees a new
-// word also sees the odd version before it (the thread sanitizer follows this; it does not model
-// stand-alone fences).
+// One place of a ring. The value lies in 64-bit atomic words; the version is odd while they change.
+// What each order is for (tests/unit/blackboard/memory_order.cpp takes each away, and fails):
+// - stamp, size and words, release and acquire: whoever reads a new one also sees the odd version
+//   before it, so that his second look at the version differs. That look and the odd store may then
+//   be relaxed themselves.
+// - the even version, release and acquire: whoever reads it sees all of the value, whatever number
+//   the head announces.
+// - newest, release and acquire: whoever hears of a number can have it, or it was written over.
+// - the writer's claim: a successor begins after its predecessor's last number.
+// There is no stand-alone fence: the thread sanitizer does not model them.
 template <Wire T, template <class> class Atomic = std::atomic>
 struct ChannelSlot {
   static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
@@ -214,8 +220,11 @@ class Reader {
 
   // The value with this sequence number; nullptr when the ring no longer (or not yet) has it.
   [[nodiscard]] const Stamped<T>* at(std::uint64_t sequence) noexcept {
+    if (sequence == 0 || sequence > newest_sequence()) {
+      return nullptr;  // what is not announced does not count, even if it is whole
+    }
     const bool held = held_->sequence == sequence;
-    return sequence != 0 && (held || take(sequence) == Taken::kWhole) ? held_.get() : nullptr;
+    return held || take(sequence) == Taken::kWhole ? held_.get() : nullptr;
   }
 
   [[nodiscard]] std::uint64_t newest_sequence() const noexcept {
