@@ -14,6 +14,7 @@
 #include "high_level/tasks/operator_desk.h"
 #include "mid_level/base/clock.h"
 #include "mid_level/blackboard/segment.h"
+#include "mid_level/runtime/realtime_rights.h"
 #include "mid_level/runtime/run_realtime.h"
 
 namespace lodesman {
@@ -68,9 +69,13 @@ int run(const cli::ProcessOptions& options, bool start_by_itself) {
   // lodesman-low, which has the same rights, warns if they are missing.
   (void)set_up_realtime();
   const auto tasks = high.tasks();
-  const RealtimeRunner runner{tasks, board.writable(), Role::kHigh};
+  HealthWatch health{*board, tasks, SteadyClock{}.now()};
+  const RealtimeRunner runner{tasks, board.writable(), Role::kHigh, cli::end_without};
   bool low_died = false;
-  cli::wait_for_stop([&] { return low_died = !board.alive(Role::kLow); });
+  cli::wait_for_stop([&] {
+    cli::say_what_hangs(health);
+    return low_died = !board.alive(Role::kLow);
+  });
   if (low_died) {
     spdlog::error("lodesman-low is gone: stopping");
   }

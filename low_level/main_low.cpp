@@ -6,7 +6,9 @@
 #include "deploy/cli/run/process_main.h"
 #include "deploy/cli/run/settings.h"
 #include "deploy/cli/run/simulated_boat.h"
+#include "mid_level/base/clock.h"
 #include "mid_level/blackboard/segment.h"
+#include "mid_level/runtime/realtime_rights.h"
 #include "mid_level/runtime/run_realtime.h"
 
 namespace lodesman {
@@ -26,8 +28,12 @@ int run(const cli::ProcessOptions& options) {
     spdlog::warn("{}", missing);
   }
   const auto tasks = boat.tasks();
-  const RealtimeRunner runner{tasks, board.writable(), Role::kLow};
-  cli::wait_for_stop([] { return false; });
+  HealthWatch health{*board, tasks, SteadyClock{}.now()};
+  const RealtimeRunner runner{tasks, board.writable(), Role::kLow, cli::end_without};
+  cli::wait_for_stop([&] {
+    cli::say_what_hangs(health);
+    return false;
+  });
   return cli::kExitDone;
 }
 

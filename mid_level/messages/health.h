@@ -3,24 +3,37 @@
 // Plain data for the blackboard; any thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "mid_level/messages/fields.h"
 
 namespace lodesman {
 
-// Written by the runner after each step of a task, on that task's own channel; read by displays.
+// Written by the runner once a second, on each task's own channel; read by displays and by whoever
+// watches for tasks that hang.
 struct TaskHealth {
+  static constexpr std::size_t kLateBuckets = 20;
+
   std::uint64_t steps = 0;          // [-] done so far
   std::uint64_t overruns = 0;       // [-] periods missed so far, and skipped
   std::uint64_t last_step_ns = 0;   // [ns] of the last step, measured
   std::uint64_t worst_step_ns = 0;  // [ns] of the longest step, measured
+  std::uint64_t worst_late_ns = 0;  // [ns] from when a step was due to when it began, measured
+  std::uint64_t fifo_priority = 0;  // [-] SCHED_FIFO priority that its thread holds; 0: none
+  // Steps that began less than 2^i us after they were due, and not less than half of that; the last
+  // also counts what was later still.
+  std::array<std::uint64_t, kLateBuckets> late{};  // [-]
 
   static constexpr auto fields() noexcept {
     using T = TaskHealth;
-    return std::tuple{field("steps", &T::steps), field("overruns", &T::overruns),
+    return std::tuple{field("steps", &T::steps),
+                      field("overruns", &T::overruns),
                       measured_field("last_step_ns", &T::last_step_ns),
-                      measured_field("worst_step_ns", &T::worst_step_ns)};
+                      measured_field("worst_step_ns", &T::worst_step_ns),
+                      measured_field("worst_late_ns", &T::worst_late_ns),
+                      measured_field("fifo_priority", &T::fifo_priority),
+                      measured_field("late", &T::late)};
   }
 };
 

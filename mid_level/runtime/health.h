@@ -1,31 +1,77 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts a task's steps and missed periods, and publishes them once a second. One thread.
+// Counts a task's steps, how late they began and which periods were missed, and publishes that once
+// a second. One thread.
 #pragma once
 
 #include <algorithm>
+#include <bit>
 
 #include "mid_level/runtime/task.h"
 
 namespace lodesman {
+
+// A task tells its health at its first step after this has passed.
+inline constexpr Duration kHealthPeriod = std::chrono::seconds{1};
+
+// Which of TaskHealth::late counts a step that began so late.
+[[nodiscard]] constexpr std::size_t late_bucket(Duration late) noexcept {
+  const auto us = static_cast<std::uint64_t>(std::max<std::int64_t>(late.count(), 0)) / 1000;
+  return std::min<std::size_t>(static_cast<std::size_t>(std::bit_width(us)),
+                               TaskHealth::kLateBuckets - 1);
+}
+
+// How late, at most, that share (from 0 to 1) of a task's steps began: a power of two of
+// microseconds, or the worst where that is less. Zero where there was no step.
+[[nodiscard]] constexpr Duration late_at_most(const TaskHealth& health, double share) noexcept {
+  double steps = 0.0;
+  for (const std::uint64_t count : health.late) {
+    steps += static_cast<double>(count);
+  }
+  double seen = 0.0;
+  for (std::size_t i = 0; i + 1 < TaskHealth::kLateBuckets; ++i) {
+    seen += static_cast<double>(health.late[i]);
+    if (seen >= share * steps) {
+      return std::min(Duration{std::chrono::microseconds{std::int64_t{1} << i}},
+                      Duration{static_cast<std::int64_t>(health.worst_late_ns)});
+    }
+  }
+  return Duration{static_cast<std::int64_t>(health.worst_late_ns)};
+}
+
+struct StepTimes {
+  Time began{};
+  Duration late{};  // from when it was due
+  Duration took{};
+  std::uint64_t missed_periods = 0;
+};
 
 class HealthKeeper {
  public:
   HealthKeeper(Blackboard& board, TaskId task, Role role)
       : writer_{board.task_health[static_cast<std::size_t>(task)], role, to_string(task)} {}
 
-  void stepped(Time now, Duration took, std::uint64_t missed_periods) noexcept {
-    const auto took_ns = static_cast<std::uint64_t>(std::max<std::int64_t>(took.count(), 0));
+  void holds_fifo_priority(int priority) noexcept {
+    health_.fifo_priority = static_cast<std::uint64_t>(priority);
+  }
+
+  void stepped(const StepTimes& step) noexcept {
     ++health_.steps;
-    health_.overruns += missed_periods;
-    health_.last_step_ns = took_ns;
-    health_.worst_step_ns = std::max(health_.worst_step_ns, took_ns);
-    if (now >= due_) {
-      writer_.publish(health_, now);
-      due_ = now + std::chrono::seconds{1};
+    health_.overruns += step.missed_periods;
+    health_.last_step_ns = nanoseconds(step.took);
+    health_.worst_step_ns = std::max(health_.worst_step_ns, health_.last_step_ns);
+    health_.worst_late_ns = std::max(health_.worst_late_ns, nanoseconds(step.late));
+    ++health_.late[late_bucket(step.late)];
+    if (step.began >= due_) {
+      writer_.publish(health_, step.began);
+      due_ = step.began + kHealthPeriod;
     }
   }
 
  private:
+  [[nodiscard]] static std::uint64_t nanoseconds(Duration duration) noexcept {
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(duration.count(), 0));
+  }
+
   Writer<TaskHealth> writer_;
   TaskHealth health_;
   Time due_{};

@@ -28,22 +28,14 @@ std::size_t LockstepRunner::next() const noexcept {
   return static_cast<std::size_t>(first - entries_.begin());
 }
 
-Time LockstepRunner::next_due() const noexcept { return entries_[next()].due; }
-
 void LockstepRunner::step() noexcept {
   Entry& entry = entries_[next()];
   clock_.advance_to(std::max(entry.due, clock_.now()));
   const Stopwatch stopwatch;
   entry.task.task->step(clock_.now());
-  entry.health.stepped(clock_.now(), stopwatch.elapsed(), 0);
+  entry.health.stepped({clock_.now(), {}, stopwatch.elapsed(), 0});
   entry.nominal += entry.task.spec.period;
   entry.due = with_jitter(entry.nominal);
-}
-
-void LockstepRunner::stop() noexcept {
-  for (auto& entry : entries_) {
-    entry.task.task->enter_safe_state(clock_.now());
-  }
 }
 
 Time LockstepRunner::with_jitter(Time nominal) noexcept {

@@ -26,12 +26,8 @@ class LockstepRunner {
   LockstepRunner(std::span<const TaskEntry> entries, SimClock& clock, Blackboard& board,
                  const LockstepOptions& options);
 
-  // When the next task is due.
-  [[nodiscard]] Time next_due() const noexcept;
-  // Moves the clock to it and runs that task.
+  // Moves the clock to when the next task is due, and runs it.
   void step() noexcept;
-  // Lets every task leave its device safe.
-  void stop() noexcept;
 
  private:
   struct Entry {

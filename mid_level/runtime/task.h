@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "mid_level/base/time.h"
 #include "mid_level/blackboard/blackboard.h"
@@ -19,11 +18,9 @@ class Task {
   virtual ~Task() = default;
 
   virtual void step(Time now) noexcept = 0;
-  // Called once by the runner when it stops, so that a task can leave its device safe.
+  // Called once when the task has been stepped for the last time, by the thread that stepped it, so
+  // that it can leave its device safe.
   virtual void enter_safe_state(Time /*now*/) noexcept {}
-  // How many of its inputs were passed over so far because they were not sane: a device's samples
-  // and what stood on the blackboard.
-  [[nodiscard]] virtual std::uint64_t refused() const noexcept { return 0; }
 };
 
 // When a task runs: one row of the project's task table.
@@ -33,12 +30,6 @@ struct TaskSpec {
   Duration phase{};       // offset of its first due time
   int fifo_priority = 0;  // SCHED_FIFO priority where allowed; 0: best effort
 };
-
-// What several readers passed over.
-template <class... Readers>
-[[nodiscard]] std::uint64_t refused_by(const Readers&... readers) noexcept {
-  return (readers.refused() + ...);
-}
 
 struct TaskEntry {
   TaskSpec spec;

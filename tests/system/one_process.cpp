@@ -2,6 +2,9 @@
 // Both levels over one segment as on the boat, but in one process, so that the thread sanitizer
 // sees every access of every task from both sides. What is asserted is that it works; that nothing
 // races is the sanitizer's to say.
+#include <sys/wait.h>
+
+#include "deploy/cli/run/process_main.h"
 #include "deploy/cli/run/simulated_boat.h"
 #include "mid_level/recording/recording_hash.h"
 #include "mid_level/runtime/run_realtime.h"
@@ -51,8 +54,8 @@ TEST_CASE("one process: both levels sail over one segment, and an onlooker reads
       const Onlooker onlooker{*board};
       const auto low_tasks = boat.tasks();
       const auto high_tasks = high.tasks();
-      const RealtimeRunner low_runner{low_tasks, low_board.writable(), Role::kLow};
-      const RealtimeRunner high_runner{high_tasks, high_board.writable(), Role::kHigh};
+      const RealtimeRunner low_runner{low_tasks, low_board.writable(), Role::kLow, end_without};
+      const RealtimeRunner high_runner{high_tasks, high_board.writable(), Role::kHigh, end_without};
       REQUIRE(eventually([&] { return drives(thrust.latest()); }));
       CHECK(eventually([&] {
         const auto* newest = plan.latest();
@@ -65,4 +68,40 @@ TEST_CASE("one process: both levels sail over one segment, and an onlooker reads
     CHECK(int{await_first(thrust).value.left} == 128);
     CHECK(int{await_first(thrust).value.right} == 128);
   }
+}
+
+namespace {
+
+// A driver that never comes back.
+class Hanging final : public Task {
+ public:
+  void step(Time /*now*/) noexcept override {
+    hangs_ = true;
+    for (;;) {
+      pause();
+    }
+  }
+  std::atomic<bool> hangs_{false};
+};
+
+}  // namespace
+
+TEST_CASE("one process: a program with a task that hangs ends by itself, and with a fault",
+          "[system]") {
+  const pid_t program = fork();
+  REQUIRE(program >= 0);
+  if (program == 0) {
+    const auto board = std::make_unique<Blackboard>();
+    Hanging driver;
+    const TaskEntry entry = scheduled(TaskId::kDeltaT, driver);
+    {
+      const RealtimeRunner runner{std::span{&entry, 1}, *board, Role::kLow, cli::end_without};
+      (void)eventually([&] { return driver.hangs_.load(); });
+    }
+    _exit(cli::kExitDone);
+  }
+  int status = 0;
+  REQUIRE(eventually([&] { return waitpid(program, &status, WNOHANG) == program; }));
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == cli::kExitFault);
 }

@@ -2,13 +2,16 @@
 #include "deploy/cli/run/process_main.h"
 
 #include <fcntl.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 
 #include "deploy/cli/common_options.h"
+#include "mid_level/base/clock.h"
 #include "mid_level/base/startup_error.h"
 
 namespace lodesman::cli {
@@ -60,6 +63,21 @@ void add_process_options(CLI::App& app, ProcessOptions& options) {
   add_seed_option(app, options.seed);
   app.add_flag_callback("--stop-with-input", stop_with_standard_input,
                         "End with standard input, a pipe: so no child outlives its launcher");
+}
+
+void end_without(std::span<const TaskId> hung) {
+  std::string tasks;
+  for (const TaskId task : hung) {
+    tasks += std::string{tasks.empty() ? "" : ", "} + to_string(task);
+  }
+  spdlog::error("stopped, but these tasks hang and are not known to be safe: {}", tasks);
+  std::_Exit(kExitFault);
+}
+
+void say_what_hangs(HealthWatch& watch) {
+  for (const std::string& line : watch.news(SteadyClock{}.now())) {
+    spdlog::warn("{}", line);
+  }
 }
 
 int process_main(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {

@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "deploy/cli/run/stop_signals.h"
+#include "mid_level/runtime/health_watch.h"
 
 namespace lodesman::cli {
 
@@ -21,6 +23,11 @@ struct ProcessOptions {
 };
 
 void add_process_options(CLI::App& app, ProcessOptions& options);
+
+// What a runner does whose tasks hang at the end: says which, and ends the process with a fault.
+[[noreturn]] void end_without(std::span<const TaskId> hung);
+// Says once which tasks have begun to hang, and which step again.
+void say_what_hangs(HealthWatch& watch);
 
 // Parses, runs `body` and turns what it throws into one line and an exit status, which is a fault
 // too where standard output could not be written.

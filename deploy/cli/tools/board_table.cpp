@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "deploy/cli/tools/board_watch.h"
+#include "mid_level/runtime/health.h"
 
 namespace lodesman::cli {
 namespace {
@@ -39,16 +40,27 @@ constexpr const char* kPlain = "\x1b[0m";
                      row.publications, row.missed);
 }
 
+[[nodiscard]] double in_us(std::uint64_t ns) noexcept { return static_cast<double>(ns) * 1e-3; }
+
+// 99 of 100 steps began no later than this.
+[[nodiscard]] double usual_late_us(const TaskHealth& health) noexcept {
+  return to_seconds(late_at_most(health, 0.99)) * 1e6;
+}
+
 [[nodiscard]] std::string line_of(const TaskRow& row) {
   const std::string head =
-      fmt::format("{:<17} {:<6} {:>7.0f}", row.name, program_of(row.process), row.period_s * 1e3);
+      fmt::format("{:<12} {:<4} {:>4.0f}", row.name, program_of(row.process), row.period_s * 1e3);
   if (!row.health) {
-    return head + fmt::format(" {:>10}", "not run");
+    return head + "  not run";
   }
-  return head + fmt::format(" {:>10} {:>9} {:>10.1f} {:>11.1f}", row.health->steps,
-                            row.health->overruns,
-                            static_cast<double>(row.health->last_step_ns) * 1e-3,
-                            static_cast<double>(row.health->worst_step_ns) * 1e-3);
+  const TaskHealth& health = *row.health;
+  const std::string counts = head + fmt::format(" {:>4} {:>10} {:>8}", health.fifo_priority,
+                                                health.steps, health.overruns);
+  if (row.silent) {
+    return counts + fmt::format("  silent for {:.1f} s", row.age_s.value_or(0.0));
+  }
+  return counts + fmt::format(" {:>10.1f} {:>9.1f} {:>9.1f}", in_us(health.worst_step_ns),
+                              usual_late_us(health), in_us(health.worst_late_ns));
 }
 
 [[nodiscard]] Json number_or_null(const std::optional<double>& value) {
@@ -78,6 +90,9 @@ constexpr const char* kPlain = "\x1b[0m";
           {"overruns", count(&TaskHealth::overruns)},
           {"last_step_ns", count(&TaskHealth::last_step_ns)},
           {"worst_step_ns", count(&TaskHealth::worst_step_ns)},
+          {"worst_late_ns", count(&TaskHealth::worst_late_ns)},
+          {"late_p99_us", row.health ? Json(usual_late_us(*row.health)) : Json(nullptr)},
+          {"fifo_priority", count(&TaskHealth::fifo_priority)},
           {"age_s", number_or_null(row.age_s)},
           {"silent", row.silent}};
 }
@@ -95,8 +110,9 @@ std::vector<std::string> table_lines(const SegmentState& state, bool colour) {
   for (const ChannelRow& row : state.board.channels) {
     lines.push_back(marked(line_of(row), row.stale, colour));
   }
-  lines.push_back(fmt::format("  {:<17} {:<6} {:>7} {:>10} {:>9} {:>10} {:>11}", "task", "in", "ms",
-                              "steps", "overruns", "last us", "worst us"));
+  lines.push_back(fmt::format("  {:<12} {:<4} {:>4} {:>4} {:>10} {:>8} {:>10} {:>9} {:>9}", "task",
+                              "in", "ms", "FIFO", "steps", "overruns", "longest us", "late 99 %",
+                              "latest us"));
   for (const TaskRow& row : state.board.tasks) {
     lines.push_back(marked(line_of(row), row.silent, colour));
   }

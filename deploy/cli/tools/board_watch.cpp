@@ -4,7 +4,7 @@
 #include <memory>
 #include <type_traits>
 
-#include "mid_level/runtime/task_table.h"
+#include "mid_level/runtime/health_watch.h"
 
 namespace lodesman::cli {
 
@@ -91,7 +91,7 @@ TaskRow BoardWatch::row_of(const TaskSeen& seen, std::size_t task) const {
   if (seen.newest) {
     row.health = seen.newest->value;
     row.age_s = to_seconds(now_ - seen.newest->stamp);
-    row.silent = now_ - seen.newest->stamp > kHealthPatience;
+    row.silent = now_ - seen.newest->stamp > silence_limit(kTaskTable[task].period);
   }
   return row;
 }

@@ -47,8 +47,6 @@ class BoardWatch {
   static constexpr Duration kRateWindow = std::chrono::seconds{3};
   // A ring of four pings at 25 Hz lasts 160 ms: so often poll() must be called to miss none.
   static constexpr Duration kPollPeriod = std::chrono::milliseconds{50};
-  // A task tells its health once a second; it is silent after twice that and a half.
-  static constexpr Duration kHealthPatience = std::chrono::milliseconds{2500};
 
   // `board` must outlive it. Publications from before are not looked at, only counted.
   explicit BoardWatch(const Blackboard& board);

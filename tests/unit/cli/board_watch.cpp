@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/cli/tools/board_watch.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "deploy/cli/tools/find_segment.h"
+#include "mid_level/runtime/health_watch.h"
 #include "tests/support/catch.h"
 #include "tests/unit/cli/text_file.h"
 
@@ -103,15 +105,24 @@ TEST_CASE("watch: a task tells of its steps until it falls silent", "[cli]") {
   REQUIRE(row.health->overruns == 5);
   REQUIRE(row.period_s == Approx(0.02));
   REQUIRE_FALSE(row.silent);
-  watch.poll(kStart + BoardWatch::kHealthPatience + milliseconds{1});
+  watch.poll(kStart + silence_limit(milliseconds{20}));
+  REQUIRE_FALSE(watch.state().tasks[ahrs].silent);
+  watch.poll(kStart + silence_limit(milliseconds{20}) + milliseconds{1});
   REQUIRE(watch.state().tasks[ahrs].silent);
+  const auto lines = table_lines({"lodesman-x", true, true, watch.state()}, false);
+  REQUIRE(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+    return line.starts_with("! ahrs ") && line.ends_with("  silent for 2.6 s");
+  }));
 }
 
 TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
   Boat boat;
   BoardWatch watch{*boat.board};
   boat.attitude.publish({}, kStart);
-  boat.health.publish({1234, 5, 6'000, 70'000}, kStart);
+  TaskHealth health{1234, 5, 6'000, 70'000, 800'000, 60};
+  health.late[6] = 1233;
+  health.late[10] = 1;
+  boat.health.publish(health, kStart);
   watch.poll(kStart);
   const SegmentState state{"lodesman-x", true, false, watch.state()};
   const auto lines = table_lines(state, false);
@@ -125,6 +136,10 @@ TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
   REQUIRE(all.find("\n! helm_command") != std::string::npos);
   REQUIRE(all.find("\n  attitude") != std::string::npos);
   REQUIRE(all.find("\n  plan ") != std::string::npos);
+  REQUIRE(
+      all.find(
+          "\n  ahrs         low    20   60       1234        5       70.0      64.0     800.0\n") !=
+      std::string::npos);
   REQUIRE(all.find("\x1b") == std::string::npos);
   REQUIRE(table_lines(state, true)[0].starts_with("\x1b[31m! "));
 
@@ -135,6 +150,9 @@ TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
   REQUIRE(json.at("channels")[1].at("stale") == false);
   REQUIRE(json.at("tasks").size() == kTaskCount);
   REQUIRE(json.at("tasks")[0].at("steps").is_null());
+  REQUIRE(json.at("tasks")[1].at("fifo_priority") == 60);
+  REQUIRE(json.at("tasks")[1].at("late_p99_us") == Approx(64.0));
+  REQUIRE(json.at("tasks")[1].at("worst_late_ns") == 800'000);
 }
 
 TEST_CASE("watch: the segment is the one named, or the only one", "[cli]") {

@@ -82,12 +82,16 @@ TEST_CASE("recording hash: any published value, stamp or order changes it, wall 
     RecordingHash hash{*board};
     Writer<HelmCommand> helm{board->helm_command, Role::kHigh, "helm"};
     Writer<SonarPath> paths{board->sonar_path, Role::kLow, "path"};
+    Writer<TaskHealth> health{board->task_health[0], Role::kLow, "world"};
     HelmCommand command;
     command.head_ref = head_ref;
     helm.publish(command, Time{Duration{stamp}});
     const auto path = std::make_unique<SonarPath>();
     path->plan_time_ns = wall_time;
     paths.publish(*path, Time{Duration{stamp}});
+    TaskHealth measured{1, 0, wall_time, wall_time, wall_time, wall_time};
+    measured.late[wall_time] = 1;
+    health.publish(measured, Time{Duration{stamp}});
     hash.update();
     return hash.digest();
   };
