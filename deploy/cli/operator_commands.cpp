@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "deploy/cli/common_options.h"
+#include "deploy/cli/number_options.h"
 #include "deploy/cli/run/settings.h"
 #include "high_level/mission/command_line.h"
 #include "high_level/mission/token_file.h"
@@ -153,7 +154,7 @@ void add(CLI::App& root, const std::string& name, const std::string& description
       ->type_name("ADDRESS");
   command->add_option("--port", options->port, "Of its command socket")
       ->type_name("N")
-      ->check(CLI::Range(1, 65535));
+      ->check(number_from(1, 65535));
   command->add_option("--token-file", options->token_file, "Instead of the one that it left")
       ->type_name("FILE");
   add_common_options(*command, options->common);

@@ -120,7 +120,13 @@ class RunOutput {
     }
   }
 
-  void show(const RunProgress& progress) { line_.show(progress); }
+  void show(const RunProgress& progress) {
+    if (progress.notice && progress.notice->t_s > noticed_s_) {
+      noticed_s_ = progress.notice->t_s;
+      line_.say(fmt::format("{:.1f} s: {}", noticed_s_, progress.notice->text));
+    }
+    line_.show(progress);
+  }
   void add(const TrajectoryRow& row) {
     files_.add(row);
     note(files_.fault());
@@ -164,6 +170,7 @@ class RunOutput {
   RunFiles files_;
   ProgressLine line_;
   PlanStory story_;
+  double noticed_s_ = 0.0;
   std::optional<ViewSaver> views_;
   bool lost_ = false;
 };

@@ -152,7 +152,7 @@ Replanner::Pending Replanner::take_answer(Time now) noexcept {
   return pending;
 }
 
-const Plan* Replanner::silence(Time now) noexcept {
+const Plan* Replanner::silence(Time now, const Missing& missing) noexcept {
   if (pending_ && now - pending_->asked > options_.answer_patience) {
     pending_.reset();
   }
@@ -162,7 +162,8 @@ const Plan* Replanner::silence(Time now) noexcept {
   silence_said_ = true;
   plan_ = Plan{};
   plan_.id = next_id_++;
-  plan_.reason = PathReason::kNoFrame;
+  plan_.reason = missing.what;
+  plan_.lost_since = missing.since;
   plan_.rung = PlanRung::kNothing;
   return &plan_;
 }
@@ -187,6 +188,7 @@ void Replanner::describe(const Pending& pending, PathReason reason) noexcept {
   plan_.goal_x_m = pending.goal.xy_m.x();
   plan_.goal_y_m = pending.goal.xy_m.y();
   plan_.reason = reason;
+  plan_.lost_since = Time{};
 }
 
 }  // namespace lodesman

@@ -42,6 +42,12 @@ class PoseHistory {
   std::size_t count_ = 0;  // ever added
 };
 
+// What there is no plan without.
+struct Missing {
+  PathReason what = PathReason::kNoFrame;  // kNoFrame, kNoPosition or kNoHeading
+  Time since{};                            // when the last of it was measured; 0: never
+};
+
 class Replanner {
  public:
   // first_id: above every id that an earlier program has used.
@@ -68,7 +74,7 @@ class Replanner {
 
   // The plan once there was no answer for longer than the limit, because no sonar frame came, none
   // could be placed, or PathFinder is silent: nothing is known, so nothing is followed. Said once.
-  [[nodiscard]] const Plan* silence(Time now) noexcept;
+  [[nodiscard]] const Plan* silence(Time now, const Missing& missing) noexcept;
 
  private:
   struct Pending {

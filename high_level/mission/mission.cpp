@@ -97,7 +97,8 @@ void Mission::advance(const WorldPoint& position, Time now) noexcept {
   }
   const bool last = status_.goal_index + 1 == options_.goals.size();
   const double radius_m = last ? options_.goal_radius_m : options_.waypoint_radius_m;
-  if ((position.xy_m - goal().xy_m).norm() > radius_m) {
+  // Nor is it reached where the distance is no number.
+  if (!((position.xy_m - goal().xy_m).norm() <= radius_m)) {
     return;
   }
   if (last) {

@@ -86,8 +86,7 @@ void ControllerTask::steer_for_waypoint(const Plan& plan, const WorldPoint& posi
   helm.waypoint_y_m = ahead.y_m;
   const Heading reference =
       Heading::of_displacement(ahead.x_m - position.xy_m.x(), ahead.y_m - position.xy_m.y());
-  helm.surge_ref = options_.surge_ref;
-  helm.head_ref = head_ref(heading, reference, options_.heading_gain_per_deg);
+  set_helm(1.0, heading, reference, helm);
 }
 
 void ControllerTask::steer_by_pilot(const Plan& plan, const VehicleState& state,
@@ -120,8 +119,8 @@ void ControllerTask::steer_along(const Vec& way, double speed_share, const Vec& 
   const Heading reference = Heading::of_displacement(steered.x(), steered.y());
   const Heading heading = Heading::clockwise_from_y_rad(attitude.heading_rad);
   const bool sharp = std::abs(heading.turn_to_rad(reference)) > kSharpTurn_rad;
-  set_helm(speed_share > 0.0 && sharp ? kSharpTurnShare * speed_share : speed_share, reference,
-           attitude, helm);
+  turn_to(speed_share > 0.0 && sharp ? kSharpTurnShare * speed_share : speed_share, reference,
+          attitude, helm);
 }
 
 // Back to a place the faster the farther it is, on top of what the current asks for; bow or stern
@@ -138,7 +137,7 @@ void ControllerTask::keep_place(const Vec& way, const Plan& plan, const Vec& cur
   if (speed_m_s < kStillWater_m_s) {
     const Heading faced = Heading::clockwise_from_y_rad(plan.course_rad);
     if (std::abs(heading.turn_to_rad(faced)) > kFacing_rad) {
-      set_helm(0.0, faced, attitude, helm);
+      turn_to(0.0, faced, attitude, helm);
     }
     return;  // there, and nothing moves it: no surge
   }
@@ -149,16 +148,28 @@ void ControllerTask::keep_place(const Vec& way, const Plan& plan, const Vec& cur
   }
   const double along = std::max(0.0, std::cos(heading.turn_to_rad(reference)));
   const double share = along * std::min(speed_m_s / options_.speed_m_s, std::abs(plan.speed_share));
-  set_helm(astern ? -share : share, reference, attitude, helm);
+  turn_to(astern ? -share : share, reference, attitude, helm);
 }
 
-void ControllerTask::set_helm(double speed_share, Heading reference, const Attitude& attitude,
-                              HelmCommand& helm) noexcept {
+void ControllerTask::turn_to(double speed_share, Heading reference, const Attitude& attitude,
+                             HelmCommand& helm) const noexcept {
   const Heading swung = Heading::clockwise_from_y_rad(
       attitude.heading_rad + options_.heading_lead_s * attitude.yaw_rate_rad_s);
-  const long surge_ref = std::lround(speed_share * options_.surge_ref);
-  helm.surge_ref = static_cast<std::int32_t>(std::clamp(surge_ref, -100L, 100L));
-  helm.head_ref = head_ref(swung, reference, options_.heading_gain_per_deg);
+  set_helm(speed_share, swung, reference, helm);
+}
+
+// What is no number is no command: it would be some whole number in the end.
+void ControllerTask::set_helm(double speed_share, Heading heading, Heading reference,
+                              HelmCommand& helm) const noexcept {
+  const double surge_ref = speed_share * options_.surge_ref;
+  if (!std::isfinite(surge_ref) || !std::isfinite(heading.turn_to_rad(reference))) {
+    helm.reason = HelmReason::kNotSane;
+    helm.surge_ref = 0;
+    helm.head_ref = 0;
+    return;
+  }
+  helm.surge_ref = static_cast<std::int32_t>(std::lround(std::clamp(surge_ref, -100.0, 100.0)));
+  helm.head_ref = head_ref(heading, reference, options_.heading_gain_per_deg);
 }
 
 }  // namespace lodesman

@@ -24,6 +24,9 @@ class ControllerTask final : public Task {
   ControllerTask(Blackboard& board, Role role, const ControllerOptions& options);
   void step(Time now) noexcept override;
   void enter_safe_state(Time now) noexcept override;
+  [[nodiscard]] std::uint64_t refused() const noexcept override {
+    return refused_by(attitude_, vehicle_state_, mission_status_, plan_);
+  }
 
  private:
   [[nodiscard]] HelmCommand decide(Time now) noexcept;
@@ -35,8 +38,11 @@ class ControllerTask final : public Task {
                    const Attitude& attitude, HelmCommand& helm) noexcept;
   void keep_place(const Eigen::Vector2d& way, const Plan& plan, const Eigen::Vector2d& current,
                   const Attitude& attitude, HelmCommand& helm) noexcept;
-  void set_helm(double speed_share, Heading reference, const Attitude& attitude,
-                HelmCommand& helm) noexcept;
+  // Steers by the heading that it will have swung to.
+  void turn_to(double speed_share, Heading reference, const Attitude& attitude,
+               HelmCommand& helm) const noexcept;
+  void set_helm(double speed_share, Heading heading, Heading reference,
+                HelmCommand& helm) const noexcept;
 
   ControllerOptions options_;
   WaypointTracker tracker_;

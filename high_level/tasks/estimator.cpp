@@ -44,7 +44,18 @@ void EstimatorTask::step(Time now) noexcept {
     state.current_x_m_s = current_m_s.x();
     state.current_y_m_s = current_m_s.y();
   }
-  states_.publish(state, now);
+  if (sane(state)) {
+    states_.publish(state, now);
+  } else {
+    begin_anew();
+  }
+}
+
+void EstimatorTask::begin_anew() noexcept {
+  dead_reckoning_ = DeadReckoning{options_.dead_reckoning, options_.start};
+  surge_ = Lag{options_.surge_lag};
+  drift_ = DriftEstimate{options_.current_time};
+  has_fix_ = false;
 }
 
 bool EstimatorTask::update_position(Time now, Heading heading, int surge_ref) noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The estimator task: where the vehicle is, from what its source of position gives and the AHRS's
-// heading. It publishes nothing while its inputs are stale.
+// heading. It publishes nothing while its inputs are stale, and begins anew where what comes out is
+// no estimate.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +28,13 @@ class EstimatorTask final : public Task {
  public:
   EstimatorTask(Blackboard& board, Role role, const EstimatorOptions& options);
   void step(Time now) noexcept override;
+  [[nodiscard]] std::uint64_t refused() const noexcept override {
+    return refused_by(attitude_, position_fix_, world_truth_, thrust_applied_);
+  }
 
  private:
+  // What is reckoned with, at its beginning.
+  void begin_anew() noexcept;
   // False when the source is silent.
   [[nodiscard]] bool update_position(Time now, Heading heading, int surge_ref) noexcept;
 

@@ -63,6 +63,8 @@ HighLevelOptions read_high_level_options(const TomlTable& configuration) {
   if (planner.choice("space", {"world", "sonar_view"}) == 0) {
     replanner.pilot = pilot;
   }
+  options.planner.progress.patience =
+      configuration.table("progress").duration("patience_s", Range::between(1.0, 3600.0));
   const TomlTable guidance = configuration.table("guidance");
   options.controller.waypoint_radius_m =
       guidance.number("waypoint_radius_m", Range::between(0.05, 20.0));

@@ -160,6 +160,10 @@ std::string OperatorDesk::status() {
     reply["time_s"] = m.started == Time{} ? 0.0 : to_seconds(now - m.started);
     reply["goal_m"] = {m.goal_x_m, m.goal_y_m};
     reply["aborts"] = m.aborts;
+    if (m.no_way != NoWayCause::kNone) {
+      reply["no_way"] = {{"cause", to_string(m.no_way)},
+                         {"for_s", to_seconds(now - m.no_way_since)}};
+    }
   }
   if (const auto* state = state_.latest(); state != nullptr) {
     reply["position_m"] = {state->value.x_m, state->value.y_m};

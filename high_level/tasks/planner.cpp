@@ -2,11 +2,14 @@
 #include "high_level/tasks/planner.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace lodesman {
 
 namespace {
+
+constexpr double kStay_m = 1.5;  // a place to wait at is kept within this
 
 // A frame is given its full age before its absence counts.
 [[nodiscard]] ReplannerOptions with_silence_limit(ReplannerOptions options) noexcept {
@@ -30,11 +33,17 @@ PlannerTask::PlannerTask(Blackboard& board, Role role, PlannerOptions options)
     : options_{std::move(options)},
       mission_{options_.mission},
       replanner_{with_silence_limit(options_.replanner), first_free_id(board)},
+      progress_{options_.progress},
       orders_{board.operator_command},
       vehicle_state_{board.vehicle_state},
       obstacles_{board.sonar_obstacles},
       tracks_{board.tracks},
       sonar_path_{board.sonar_path},
+      attitude_{board.attitude},
+      position_fix_{board.position_fix},
+      plan_{board.plan},
+      helm_{board.helm_command},
+      thrust_applied_{board.thrust_applied},
       requests_{board.path_request, role, "path_request"},
       plans_{board.plan, role, "plan"},
       statuses_{board.mission_status, role, "mission_status"} {
@@ -64,7 +73,11 @@ void PlannerTask::step(Time now) noexcept {
   if (mission_.under_way() || (mission_.holding() && options_.replanner.pilot)) {
     replan(now);
   }
-  statuses_.publish(mission_.status(), now);
+  watch_progress(now);
+  MissionStatus status = mission_.status();
+  status.no_way = no_way_;
+  status.no_way_since = no_way_ == NoWayCause::kNone ? Time{} : progress_.since();
+  statuses_.publish(status, now);
 }
 
 void PlannerTask::take_orders(Time now, bool estimate_is_fresh) noexcept {
@@ -82,6 +95,7 @@ void PlannerTask::take_orders(Time now, bool estimate_is_fresh) noexcept {
   }
   if (mission_.status().started != started) {
     replanner_.start(now);
+    progress_.start(now);
   }
 }
 
@@ -91,7 +105,7 @@ void PlannerTask::replan(Time now) noexcept {
   } else {
     replan_in_view(now);
   }
-  publish(replanner_.silence(now), now);
+  publish(replanner_.silence(now, missing(now)), now);
 }
 
 void PlannerTask::replan_in_view(Time now) noexcept {
@@ -123,6 +137,69 @@ void PlannerTask::replan_in_world(Time now) noexcept {
   if (request != nullptr) {
     requests_.publish(*request, now);
   }
+}
+
+Missing PlannerTask::missing(Time now) noexcept {
+  const auto* attitude = attitude_.latest();
+  if (attitude != nullptr && attitude_.fresh(now, max_age::kAttitude) == nullptr) {
+    return {PathReason::kNoHeading, attitude_.latest()->value.measured};
+  }
+  const auto* state = vehicle_state_.latest();
+  if (state != nullptr && vehicle_state_.fresh(now, max_age::kVehicleState) == nullptr) {
+    const auto* fix = position_fix_.latest();
+    return {PathReason::kNoPosition,
+            fix != nullptr ? fix->value.measured : vehicle_state_.latest()->value.valid_at};
+  }
+  const auto* frame = obstacles_.latest();
+  return {PathReason::kNoFrame, frame != nullptr ? frame->value.captured : Time{}};
+}
+
+void PlannerTask::watch_progress(Time now) noexcept {
+  no_way_ = progress_.update(now, progress_sample(now));
+}
+
+ProgressSample PlannerTask::progress_sample(Time now) noexcept {
+  ProgressSample sample;
+  const auto* state = vehicle_state_.fresh(now, max_age::kVehicleState);
+  const auto* plan = plan_.latest();
+  const auto* helm = helm_.latest();
+  const auto* thrust = thrust_applied_.fresh(now, max_age::kThrustApplied);
+  if (state != nullptr) {
+    sample.position = WorldPoint{{state->value.x_m, state->value.y_m}};
+    sample.through_water_m_s = state->value.surge_m_s;
+  }
+  const bool planned = plan != nullptr && plan->stamp >= mission_.status().started;
+  double to_waypoint_m = 0.0;
+  if (planned && helm != nullptr && sample.position) {
+    const Eigen::Vector2d way =
+        Eigen::Vector2d{helm->value.waypoint_x_m, helm->value.waypoint_y_m} - sample.position->xy_m;
+    to_waypoint_m = way.norm();
+    sample.course =
+        plan->value.steer_by == SteerBy::kCourse
+            ? Eigen::Vector2d{std::sin(plan->value.course_rad), std::cos(plan->value.course_rad)}
+            : way.normalized();
+  }
+  sample.wanted =
+      mission_.under_way() && (!planned || wants_way(plan->value, sample, to_waypoint_m));
+  if (attitude_.fresh(now, max_age::kAttitude) == nullptr) {
+    sample.cause = NoWayCause::kNoHeading;
+  } else if (state == nullptr) {
+    sample.cause = NoWayCause::kNoPosition;
+  } else if (thrust == nullptr || thrust->value.reason == ThrustReason::kDeviceFailed) {
+    sample.cause = NoWayCause::kThrusters;
+  } else if (!planned || plan->value.waypoint_count == 0) {
+    sample.cause = NoWayCause::kNoPlan;
+  }
+  return sample;
+}
+
+// To wait is a decision: it may be a long one, and its reason stands in the plan.
+bool PlannerTask::wants_way(const Plan& plan, const ProgressSample& sample,
+                            double to_waypoint_m) const noexcept {
+  const bool waits = plan.rung == PlanRung::kStop || plan.rung == PlanRung::kHold ||
+                     (plan.waypoint_count > 0 && plan.speed_share <= 0.0);
+  const bool stays = plan.stay_at_end && sample.position && to_waypoint_m < kStay_m;
+  return !waits && !stays;
 }
 
 void PlannerTask::publish(const Plan* plan, Time now) noexcept {

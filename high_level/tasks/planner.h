@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The planner task: the mission and the paper's Fig. 1, step by step.
+// The planner task: the mission and the paper's Fig. 1, step by step, and a watch over progress.
 #pragma once
 
 #include "high_level/guidance/replanner.h"
 #include "high_level/mission/mission.h"
+#include "high_level/mission/progress_watch.h"
 #include "mid_level/runtime/task.h"
 
 namespace lodesman {
@@ -11,6 +12,7 @@ namespace lodesman {
 struct PlannerOptions {
   ReplannerOptions replanner;
   MissionOptions mission;
+  ProgressWatchOptions progress;
   double sonar_range_m = 0.0;    // [m] > 0 the range setting, the radius of the sonar view
   bool start_by_itself = false;  // as soon as there is an estimate, without an operator's word
 };
@@ -19,6 +21,10 @@ class PlannerTask final : public Task {
  public:
   PlannerTask(Blackboard& board, Role role, PlannerOptions options);
   void step(Time now) noexcept override;
+  [[nodiscard]] std::uint64_t refused() const noexcept override {
+    return refused_by(orders_, vehicle_state_, obstacles_, tracks_, sonar_path_, attitude_,
+                      position_fix_, plan_, helm_, thrust_applied_);
+  }
 
  private:
   void take_orders(Time now, bool estimate_is_fresh) noexcept;
@@ -26,17 +32,30 @@ class PlannerTask final : public Task {
   void replan_in_view(Time now) noexcept;
   void replan_in_world(Time now) noexcept;
   void publish(const Plan* plan, Time now) noexcept;
+  [[nodiscard]] Missing missing(Time now) noexcept;
+  void watch_progress(Time now) noexcept;
+  [[nodiscard]] ProgressSample progress_sample(Time now) noexcept;
+  [[nodiscard]] bool wants_way(const Plan& plan, const ProgressSample& sample,
+                               double to_waypoint_m) const noexcept;
 
   PlannerOptions options_;
   Mission mission_;
   Replanner replanner_;
   PoseHistory poses_;
+  ProgressWatch progress_;
+  NoWayCause no_way_ = NoWayCause::kNone;
   WorldPoint position_;  // the last known
   Reader<OperatorCommand> orders_;
   Reader<VehicleState> vehicle_state_;
   Reader<SonarObstacles> obstacles_;
   Reader<Tracks> tracks_;
   Reader<SonarPath> sonar_path_;
+  Reader<Attitude> attitude_;
+  Reader<PositionFix> position_fix_;
+  // What was made of plans, for the watch over progress.
+  Reader<Plan> plan_;
+  Reader<HelmCommand> helm_;
+  Reader<ThrustApplied> thrust_applied_;
   Writer<PathRequest> requests_;
   Writer<Plan> plans_;
   Writer<MissionStatus> statuses_;

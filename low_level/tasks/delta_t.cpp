@@ -26,6 +26,10 @@ void DeltaTTask::step(Time now) noexcept {
   if (sonar_.poll(now, *ping_) != ReadStatus::kFresh) {
     return;
   }
+  if (!sane(*ping_)) {
+    ++refused_pings_;
+    return;
+  }
   pings_.publish(*ping_, now);
   if (options_.known_scene) {
     if (!see_known_scene(now)) {

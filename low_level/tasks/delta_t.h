@@ -29,6 +29,9 @@ class DeltaTTask final : public Task {
  public:
   DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaTOptions options);
   void step(Time now) noexcept override;
+  [[nodiscard]] std::uint64_t refused() const noexcept override {
+    return refused_pings_ + refused_by(vehicle_state_, mission_status_);
+  }
 
  private:
   // False when the estimate is stale: then nothing is known of where the obstacles are.
@@ -45,6 +48,7 @@ class DeltaTTask final : public Task {
   Writer<SonarObstacles> obstacles_;
   Writer<Tracks> tracks_;
   std::optional<TrackOracle> oracle_;
+  std::uint64_t refused_pings_ = 0;
   // Too large for a stack.
   std::unique_ptr<SonarPing> ping_ = std::make_unique<SonarPing>();
   std::unique_ptr<SonarObstacles> seen_ = std::make_unique<SonarObstacles>();

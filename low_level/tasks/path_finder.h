@@ -16,6 +16,9 @@ class PathFinderTask final : public Task {
   // range_m: the sonar's range setting [m] > 0, the radius of the sonar view.
   PathFinderTask(Blackboard& board, Role role, double range_m);
   void step(Time now) noexcept override;
+  [[nodiscard]] std::uint64_t refused() const noexcept override {
+    return refused_by(requests_, obstacles_);
+  }
 
  private:
   void find(const PathRequest& request) noexcept;

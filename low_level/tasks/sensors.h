@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The AHRS and position tasks: publish what the devices say, each sample once. Each is stepped by
+// The AHRS and position tasks: publish what the devices say, each sample once,
+// but for what is not sane. Each is stepped by
 // its runner's thread.
 #pragma once
 
@@ -13,10 +14,12 @@ class AhrsTask final : public Task {
   AhrsTask(Blackboard& board, Role role, HeadingSensor& sensor)
       : sensor_{sensor}, attitudes_{board.attitude, role, "attitude"} {}
   void step(Time now) noexcept override;
+  [[nodiscard]] std::uint64_t refused() const noexcept override { return refused_; }
 
  private:
   HeadingSensor& sensor_;
   Writer<Attitude> attitudes_;
+  std::uint64_t refused_ = 0;
 };
 
 class PositionTask final : public Task {
@@ -24,10 +27,12 @@ class PositionTask final : public Task {
   PositionTask(Blackboard& board, Role role, PositionSensor& sensor)
       : sensor_{sensor}, fixes_{board.position_fix, role, "position_fix"} {}
   void step(Time now) noexcept override;
+  [[nodiscard]] std::uint64_t refused() const noexcept override { return refused_; }
 
  private:
   PositionSensor& sensor_;
   Writer<PositionFix> fixes_;
+  std::uint64_t refused_ = 0;
 };
 
 }  // namespace lodesman

@@ -6,29 +6,35 @@
 namespace lodesman {
 
 void ThrusterTask::step(Time now) noexcept {
-  ThrustApplied applied;
-  if (const auto* helm = helm_.latest(); helm == nullptr) {
-    applied.reason = ThrustReason::kNoCommand;
-  } else {
-    applied.command_sequence = helm->sequence;
-    applied.command_stamp = helm->stamp;
-    applied.plan_id = helm->value.plan_id;
-    applied.plan_captured = helm->value.plan_captured;
-    if (helm_.fresh(now, max_age::kHelmCommand) == nullptr) {
-      applied.reason = ThrustReason::kStaleCommand;
-    } else {
-      applied.reason = ThrustReason::kCommanded;
-      applied.surge_ref = helm->value.surge_ref;
-      applied.head_ref = helm->value.head_ref;
-    }
-  }
-  const ThrustCommand thrust = map_thrust(applied.surge_ref, applied.head_ref);
-  applied.left = thrust.left;
-  applied.right = thrust.right;
+  ThrustApplied wanted = as_commanded(now);
+  const ThrustCommand thrust = map_thrust(wanted.surge_ref, wanted.head_ref);
+  wanted.left = thrust.left;
+  wanted.right = thrust.right;
   if (!thrusters_.command(thrust, now)) {
-    applied.reason = ThrustReason::kDeviceFailed;
+    // Nobody downstream may reckon with it.
+    wanted = ThrustApplied{};
+    wanted.reason = ThrustReason::kDeviceFailed;
   }
-  applied_.publish(applied, now);
+  applied_.publish(wanted, now);
+}
+
+// One look at the helm: what is fresh now stays so for this step.
+ThrustApplied ThrusterTask::as_commanded(Time now) noexcept {
+  ThrustApplied applied;
+  const auto* helm = helm_.fresh(now, max_age::kHelmCommand);
+  if (helm == nullptr) {
+    applied.reason =
+        helm_.newest_sequence() == 0 ? ThrustReason::kNoCommand : ThrustReason::kStaleCommand;
+    return applied;
+  }
+  applied.reason = ThrustReason::kCommanded;
+  applied.surge_ref = helm->value.surge_ref;
+  applied.head_ref = helm->value.head_ref;
+  applied.command_sequence = helm->sequence;
+  applied.command_stamp = helm->stamp;
+  applied.plan_id = helm->value.plan_id;
+  applied.plan_captured = helm->value.plan_captured;
+  return applied;
 }
 
 void ThrusterTask::enter_safe_state(Time now) noexcept {

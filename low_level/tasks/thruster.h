@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Thruster task: turns the helm's references into thrust commands (eqs 13-14) and hands them to
-// the box; neutral whenever the helm has fallen silent, in every mode.
+// the box; neutral whenever the helm has fallen silent, in every mode. What the box did not take is
+// reported as not done.
 // Stepped by its runner's thread.
 #pragma once
 
@@ -17,9 +18,12 @@ class ThrusterTask final : public Task {
         applied_{board.thrust_applied, role, "thrust_applied"} {}
 
   void step(Time now) noexcept override;
+  [[nodiscard]] std::uint64_t refused() const noexcept override { return helm_.refused(); }
   void enter_safe_state(Time now) noexcept override;
 
  private:
+  [[nodiscard]] ThrustApplied as_commanded(Time now) noexcept;
+
   ThrusterPair& thrusters_;
   Reader<HelmCommand> helm_;
   Writer<ThrustApplied> applied_;

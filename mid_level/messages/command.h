@@ -51,6 +51,21 @@ enum class OrderAnswer : std::uint8_t {
                                               "aborted", "too_old");
 }
 
+// Why no way is made over ground though it is wanted.
+enum class NoWayCause : std::uint8_t {
+  kNone,        // way is made, or none is wanted
+  kUnknown,     // it thrusts and stays where it is: stuck, stalled, or the water holds it
+  kThrusters,   // the thruster box takes no commands, or says nothing
+  kNoHeading,   // the heading is lost
+  kNoPosition,  // the position is lost
+  kNoPlan,      // there is nothing to follow
+  kCurrent,     // it is carried elsewhere: the current is stronger than the boat
+};
+[[nodiscard]] constexpr auto enumerators(NoWayCause) noexcept {
+  return enumerators_to<NoWayCause::kCurrent>("none", "unknown", "thrusters", "no_heading",
+                                              "no_position", "no_plan", "current");
+}
+
 // Written by the planner task at every step; read by the controller, the world (its scenario's
 // time starts with the mission) and displays.
 struct MissionStatus {
@@ -63,14 +78,22 @@ struct MissionStatus {
   std::uint64_t aborts = 0;      // [-] obeyed so far: OperatorCommand::aborts of the last one
   std::uint64_t order = 0;       // [-] sequence of the last order answered, aborts apart
   OrderAnswer answer = OrderAnswer::kNone;  // to that order
+  NoWayCause no_way = NoWayCause::kNone;    // other than none: no way has been made ...
+  Time no_way_since{};                      // [ns] ... since then
 
   static constexpr auto fields() noexcept {
     using M = MissionStatus;
-    return std::tuple{field("state", &M::state),       field("started", &M::started),
-                      field("ended", &M::ended),       field("goal_index", &M::goal_index),
-                      field("goal_x_m", &M::goal_x_m), field("goal_y_m", &M::goal_y_m),
-                      field("aborts", &M::aborts),     field("order", &M::order),
-                      field("answer", &M::answer)};
+    return std::tuple{field("state", &M::state),
+                      field("started", &M::started),
+                      field("ended", &M::ended),
+                      field("goal_index", &M::goal_index),
+                      field("goal_x_m", &M::goal_x_m),
+                      field("goal_y_m", &M::goal_y_m),
+                      field("aborts", &M::aborts),
+                      field("order", &M::order),
+                      field("answer", &M::answer),
+                      field("no_way", &M::no_way),
+                      field("no_way_since", &M::no_way_since)};
   }
 };
 
@@ -136,6 +159,8 @@ struct Plan {
   double goal_x_m = 0.0;          // [m] [world]
   double goal_y_m = 0.0;          // [m] [world]
   PathReason reason = PathReason::kNoPath;
+  // [ns] kNoFrame, kNoPosition, kNoHeading: when the last of what is missing was measured; 0: never
+  Time lost_since{};
   WaypointSource source = WaypointSource::kNone;
   PlanRung rung = PlanRung::kOnRoute;
   SteerBy steer_by = SteerBy::kWaypoints;
@@ -169,6 +194,7 @@ struct Plan {
         field("goal_x_m", &P::goal_x_m),
         field("goal_y_m", &P::goal_y_m),
         field("reason", &P::reason),
+        field("lost_since", &P::lost_since),
         field("source", &P::source),
         field("rung", &P::rung),
         field("steer_by", &P::steer_by),
@@ -246,7 +272,8 @@ enum class ThrustReason : std::uint8_t {
                                                      "device_failed");
 }
 
-// Written by the thruster task at 20 Hz, after the box took the command; read by the estimator
+// Written by the thruster task at 20 Hz, after the box took the command; where it took none, all is
+// neutral; read by the estimator
 // and displays.
 struct ThrustApplied {
   ThrustReason reason = ThrustReason::kNoCommand;

@@ -22,8 +22,8 @@ inline constexpr double kHalfTurn_rad = 3.1415926536;
 // What a number of a message may be. Without a word of its own a number that counts something is
 // free, and one that measures something is finite and below what anything on a boat can be.
 struct Bounds {
-  double least = -1e9;  // [-] in the unit of its field
-  double most = 1e9;    // [-]
+  double least = -1e9;    // [-] in the unit of its field
+  double most = 1e9;      // [-]
   bool infinite = false;  // plus infinity too: nothing there
 
   friend constexpr bool operator==(const Bounds&, const Bounds&) = default;

@@ -82,11 +82,14 @@ enum class PathReason : std::uint8_t {
   kGoalOutOfView,  // the goal lies outside the fan
   kLimit,          // the search or the path met its bound
   kNoFrame,        // no fresh sonar frame to plan in, or PathFinder gave no answer
+  kNoPosition,     // the position is lost, and with it the place of everything
+  kNoHeading,      // the heading is lost
 };
 // As the contract spells them.
 [[nodiscard]] constexpr auto enumerators(PathReason) noexcept {
-  return enumerators_to<PathReason::kNoFrame>("found", "no_path", "start_blocked", "goal_blocked",
-                                              "goal_out_of_view", "limit", "no_frame");
+  return enumerators_to<PathReason::kNoHeading>("found", "no_path", "start_blocked", "goal_blocked",
+                                                "goal_out_of_view", "limit", "no_frame",
+                                                "no_position", "no_heading");
 }
 
 inline constexpr std::size_t kMaxPathPoints = 512;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "mid_level/base/time.h"
 #include "mid_level/blackboard/blackboard.h"
@@ -21,6 +22,9 @@ class Task {
   // Called once when the task has been stepped for the last time, by the thread that stepped it, so
   // that it can leave its device safe.
   virtual void enter_safe_state(Time /*now*/) noexcept {}
+  // How many of its inputs were passed over so far because they were not sane: a device's samples
+  // and what stood on the blackboard.
+  [[nodiscard]] virtual std::uint64_t refused() const noexcept { return 0; }
 };
 
 // When a task runs: one row of the project's task table.
@@ -30,6 +34,12 @@ struct TaskSpec {
   Duration phase{};       // offset of its first due time
   int fifo_priority = 0;  // SCHED_FIFO priority where allowed; 0: best effort
 };
+
+// What several readers passed over.
+template <class... Readers>
+[[nodiscard]] std::uint64_t refused_by(const Readers&... readers) noexcept {
+  return (readers.refused() + ...);
+}
 
 struct TaskEntry {
   TaskSpec spec;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random encounters in the default profile: the goal is reached, and nothing is hit that somebody
 // who knows everything could have kept clear of. And that somebody's own tests.
+#include <algorithm>
 #include <array>
 
 #include "deploy/cli/run/settings.h"
@@ -15,17 +16,24 @@ namespace {
 
 constexpr int kGroupSize = 50;
 
+// Run down from outside the fan by what is faster than they are: the reference finds no escape from
+// the first sight on (escape.h says what it tries). Every other one reaches its goal. A number
+// goes from this list when it is sailed well, and none comes in without a look at why.
+constexpr std::array kNoEscape{4, 16, 69, 100, 106, 110, 126, 162, 277};
+
 void sail_group(int group) {
   Outcomes outcomes;
   for (int i = 1; i <= kGroupSize; ++i) {
-    const JudgedRun run = judged_run("encounter:" + std::to_string(group * kGroupSize + i));
+    const int number = group * kGroupSize + i;
+    const bool hit = std::find(kNoEscape.begin(), kNoEscape.end(), number) != kNoEscape.end();
+    const JudgedRun run = judged_run("encounter:" + std::to_string(number));
     INFO(run.story);
-    CHECK((run.collision || run.result.outcome == "goal" || run.waiting));
+    CHECK(run.collision.has_value() == hit);
+    CHECK((run.collision || run.result.outcome == "goal"));
     CHECK_FALSE((run.collision && run.collision->avoidable));
     outcomes.add(run);
   }
   WARN(outcomes.table());
-  CHECK(outcomes.unavoidable * 100 < outcomes.runs * 15);
 }
 
 [[nodiscard]] MovingObstacle circle(double x_m, double y_m, double radius_m) {

@@ -52,9 +52,20 @@ namespace {
              : std::string{"nothing to follow ("} + to_string(plan.reason) + ")";
 }
 
+// What there is nothing to follow without, and since when it is gone.
+[[nodiscard]] std::string loss_of(const PlanRecord& plan) {
+  const std::string what = plan.reason == PathReason::kNoPosition  ? "the position"
+                           : plan.reason == PathReason::kNoHeading ? "the heading"
+                                                                   : "the sonar's view";
+  return what + " is lost, last known " + fixed(*plan.lost_for_s, 1) + " s ago: nothing to follow";
+}
+
 }  // namespace
 
 std::string describe(const PlanRecord& plan) {
+  if (plan.lost_for_s) {
+    return fixed(plan.t_s, 1) + " s: " + loss_of(plan);
+  }
   std::string text = fixed(plan.t_s, 1) + " s: " + action_of(plan);
   if (plan.cause != 0 && plan.clearance_m) {
     const bool manoeuvre = plan.rung == "aside" || plan.rung == "slow" || plan.rung == "stop";
@@ -63,6 +74,23 @@ std::string describe(const PlanRecord& plan) {
             " s";
   }
   return text + " (plan " + fixed(plan.t_s - plan.captured_s, 2) + " s old)";
+}
+
+std::string describe(NoWayCause cause, double for_s) {
+  const auto because = [cause] {
+    switch (cause) {
+      case NoWayCause::kThrusters: return "the thruster box takes no commands";
+      case NoWayCause::kNoHeading: return "the heading is lost";
+      case NoWayCause::kNoPosition: return "the position is lost";
+      case NoWayCause::kNoPlan: return "there is nothing to follow";
+      case NoWayCause::kCurrent:
+        return "it is carried elsewhere, so the current is stronger than the boat";
+      case NoWayCause::kNone:
+      case NoWayCause::kUnknown: break;
+    }
+    return "it thrusts and does not get on, and nothing says why";
+  };
+  return "no way made for " + fixed(for_s, 0) + " s: " + because();
 }
 
 std::string PlanStory::news(const PlanRecord& plan) {

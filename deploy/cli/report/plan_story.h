@@ -6,12 +6,16 @@
 #include <string>
 
 #include "deploy/cli/report/run_record.h"
+#include "mid_level/messages/command.h"
 
 namespace lodesman::cli {
 
 // "12.3 s: steers 48 deg, at full speed; on the path obstacle 2, 0.31 m clear in 8 s (plan 0.15 s
 // old)": of a manoeuvre, what following the path would have come to.
 [[nodiscard]] std::string describe(const PlanRecord& plan);
+
+// "no way made for 15 s: the thruster box takes no commands". for_s: [s] since when none was.
+[[nodiscard]] std::string describe(NoWayCause cause, double for_s);
 
 class PlanStory {
  public:

@@ -139,6 +139,10 @@ std::string result_json(const RunResult& result) {
   json["ping_to_command_us"] = percentile_json(result.ping_to_command_us);
   json["overruns"] = result.overruns;
   json["stale_events"] = result.stale_events;
+  json["notices"] = Json::array();
+  for (const Notice& notice : result.notices) {
+    json["notices"].push_back({{"t_s", number(notice.t_s, kPlanDecimals)}, {"text", notice.text}});
+  }
   json["real_time_factor"] = metric(result.real_time_factor);
   json["recording_hash"] = result.recording_hash ? Json(*result.recording_hash) : Json(nullptr);
   json["version"] = result.version;

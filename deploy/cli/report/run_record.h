@@ -45,7 +45,8 @@ struct PlanRecord {
   double start_heading_deg = 0.0;
   std::array<double, 2> goal_m{};  // [world]
   PathReason reason = PathReason::kNoPath;
-  std::string waypoint_source;  // "none", "current", "previous"
+  std::optional<double> lost_for_s;  // nothing known without a frame, a position or a heading
+  std::string waypoint_source;       // "none", "current", "previous"
   // What the plan does and why; see PlanRung.
   std::string rung;
   double speed_share = 1.0;
@@ -59,6 +60,12 @@ struct PlanRecord {
   double plan_time_us = 0.0;                       // measured
   std::vector<std::array<double, 2>> path_m;       // [world] every pixel, start first
   std::vector<std::array<double, 2>> waypoints_m;  // [world] those followed from here on
+};
+
+// Something that an operator should know: that no way is made, and why.
+struct Notice {
+  double t_s = 0.0;
+  std::string text;
 };
 
 struct Percentiles {
@@ -96,6 +103,7 @@ struct RunResult {
   Percentiles ping_to_command_us;
   std::uint64_t overruns = 0;
   std::uint64_t stale_events = 0;
+  std::vector<Notice> notices;  // the first kMaxNotices
   double real_time_factor = 0.0;
   std::optional<std::string> recording_hash;  // lock-step only
   std::string version;

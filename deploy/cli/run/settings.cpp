@@ -112,6 +112,9 @@ HighLevelOptions high_level_options(const TomlDocument& configuration, const Sce
   mission.goals.push_back(scenario.mission.goal);
   mission.goal_radius_m = scenario.mission.goal_radius_m;
   options.controller.surge_ref = scenario.surge_ref;
+  options.planner.progress.least_way_m =
+      least_way_m(options.planner.progress,
+                  scenario.surge_ref * options.estimator.dead_reckoning.speed_per_surge_ref_m_s);
   if (auto& pilot = options.planner.replanner.pilot; pilot) {
     pilot->response.speed_max_m_s =
         scenario.surge_ref * options.estimator.dead_reckoning.speed_per_surge_ref_m_s;

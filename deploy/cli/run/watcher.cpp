@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deploy/cli/report/plan_story.h"
 #include "mid_level/base/frames.h"
 #include "mid_level/messages/sonar_view.h"
 
@@ -11,6 +12,7 @@ namespace lodesman::cli {
 namespace {
 
 constexpr double kRowPeriod_s = 0.1;
+constexpr std::size_t kMaxNotices = 1000;
 
 [[nodiscard]] bool is_stale(HelmReason reason) noexcept {
   return reason == HelmReason::kStaleState || reason == HelmReason::kStaleAttitude ||
@@ -77,7 +79,29 @@ void RunWatcher::poll() {
 
 void RunWatcher::take_mission() {
   while (const auto* mission = mission_.next()) {
+    note_progress(*mission);
     status_ = mission->value;
+  }
+}
+
+// Said once when it begins, again when more is known of the cause, and when it is over.
+void RunWatcher::note_progress(const Stamped<MissionStatus>& mission) {
+  const NoWayCause cause = mission.value.no_way;
+  const bool over = cause == NoWayCause::kNone;
+  const bool known_better = cause == NoWayCause::kUnknown && told_cause_ != NoWayCause::kNone;
+  if (cause == told_cause_ || known_better || ended_) {
+    return;
+  }
+  told_cause_ = cause;
+  if (over && mission.value.state != MissionState::kUnderWay) {
+    return;
+  }
+  notice_ =
+      Notice{scenario_time_of(mission.stamp),
+             over ? "makes way again"
+                  : cli::describe(cause, to_seconds(mission.stamp - mission.value.no_way_since))};
+  if (record_.result.notices.size() < kMaxNotices) {
+    record_.result.notices.push_back(*notice_);
   }
 }
 
@@ -242,6 +266,9 @@ PlanRecord RunWatcher::describe(const Stamped<Plan>& published, const SonarPath*
   record.start_heading_deg = compass_deg(plan.pose_heading_rad);
   record.goal_m = {plan.goal_x_m, plan.goal_y_m};
   record.reason = plan.reason;
+  if (plan.lost_since != Time{}) {
+    record.lost_for_s = to_seconds(published.stamp - plan.lost_since);
+  }
   record.waypoint_source = to_string(plan.source);
   record.rung = to_string(plan.rung);
   record.speed_share = plan.speed_share;
@@ -295,6 +322,7 @@ RunProgress RunWatcher::progress() const {
         way_left_m(scenario_.mission, status_.goal_index, {{last_truth_->x_m, last_truth_->y_m}});
   }
   progress.last_plan = last_plan_;
+  progress.notice = notice_;
   return progress;
 }
 

@@ -25,6 +25,7 @@ struct RunProgress {
   double to_go_m = 0.0;  // along the waypoints that are left, to the goal
   WorldTruth truth;
   std::optional<PlanRecord> last_plan;  // without its path
+  std::optional<Notice> notice;         // the last one
 };
 
 // What is known of a run before anything has happened.
@@ -55,6 +56,7 @@ class RunWatcher {
 
  private:
   void take_mission();
+  void note_progress(const Stamped<MissionStatus>& mission);
   void take_truth();
   void take_commands();
   void take_plans();
@@ -81,6 +83,8 @@ class RunWatcher {
   std::vector<Reader<TaskHealth>> health_;
 
   MissionStatus status_;
+  std::optional<Notice> notice_;
+  NoWayCause told_cause_ = NoWayCause::kNone;
   VehicleState estimate_;
   HelmCommand command_;
   ThrustApplied applied_;

@@ -149,9 +149,9 @@ TEST_CASE("replanner: a request without an answer is given up and asked again, w
   const auto first = replanner.request(s(17.0), 1, s(17.0), {{3.0, 20.0}}, poses);
   REQUIRE(first);
   CHECK(first->id == 40);
-  (void)replanner.silence(s(17.4));
+  (void)replanner.silence(s(17.4), {});
   CHECK_FALSE(replanner.request(s(19.0), 2, s(19.0), {{3.0, 20.0}}, poses));
-  (void)replanner.silence(s(17.6));
+  (void)replanner.silence(s(17.6), {});
   const auto second = replanner.request(s(19.0), 2, s(19.0), {{3.0, 20.0}}, poses);
   REQUIRE(second);
   CHECK(second->id == 41);
@@ -164,16 +164,17 @@ TEST_CASE("replanner: without any answer for too long nothing is followed, whate
   const PoseHistory poses = northward();
   const auto request = replanner.request(s(15.0), 1, s(15.0), {{3.0, 20.0}}, poses);
   CHECK(replanner.answer(s(15.1), *found(*request), 30.0)->waypoint_count > 0);
-  CHECK(replanner.silence(s(18.7)) == nullptr);
+  CHECK(replanner.silence(s(18.7), {}) == nullptr);
   // Frames come, but none that can be placed: their capture time is unknown.
   CHECK_FALSE(replanner.request(s(18.71), 2, s(3.0), {{3.0, 20.0}}, poses));
-  const Plan* blind = replanner.silence(s(18.71));
+  const Plan* blind = replanner.silence(s(18.71), {PathReason::kNoPosition, s(16.0)});
   REQUIRE(blind != nullptr);
-  CHECK(blind->reason == PathReason::kNoFrame);
+  CHECK(blind->reason == PathReason::kNoPosition);
+  CHECK(blind->lost_since == s(16.0));
   CHECK(blind->source == WaypointSource::kNone);
   CHECK(blind->waypoint_count == 0);
   CHECK(blind->captured == Time{});
-  CHECK(replanner.silence(s(18.8)) == nullptr);  // said once
+  CHECK(replanner.silence(s(18.8), {}) == nullptr);  // said once
   const auto again = replanner.request(s(19.7), 3, s(19.6), {{3.0, 20.0}}, poses);
   REQUIRE(again);
   CHECK(replanner.answer(s(19.8), *found(*again), 30.0)->source == WaypointSource::kCurrent);

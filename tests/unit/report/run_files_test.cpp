@@ -91,7 +91,7 @@ const std::vector<std::string> kResultKeys{"scenario",
                                            "plan_time_us",
                                            "ping_to_command_us",
                                            "overruns",
-                                           "stale_events",
+                                           "stale_events", "notices",
                                            "real_time_factor",
                                            "recording_hash",
                                            "version"};

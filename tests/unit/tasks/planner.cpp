@@ -16,6 +16,7 @@ namespace {
   options.mission.waypoint_radius_m = options.mission.goal_radius_m = 0.5;
   options.sonar_range_m = 30.0;
   options.start_by_itself = start_by_itself;
+  options.progress = {seconds{15}, 0.5};
   return options;
 }
 
@@ -136,6 +137,45 @@ TEST_CASE("planner task: a sonar that falls silent is said in a plan", "[high_le
   REQUIRE(plan != nullptr);
   CHECK(plan->value.waypoint_count == 0);
   CHECK(plan->value.source == WaypointSource::kNone);
+}
+
+TEST_CASE("planner task: it says when no way is made and that the thrusters are why",
+          "[high_level][tasks]") {
+  Planner planner{true};
+  Writer<ThrustApplied> applied{planner.board->thrust_applied, Role::kLow, "thrust_applied"};
+  Writer<Attitude> attitudes{planner.board->attitude, Role::kLow, "attitude"};
+  ThrustApplied failed;
+  failed.reason = ThrustReason::kDeviceFailed;
+  Time now = kStart;
+  for (; now < kStart + seconds{16}; now += milliseconds{50}) {
+    planner.estimate(0.0, now);
+    applied.publish(failed, now);
+    attitudes.publish({now, 0.0, 0.0}, now);
+    CHECK(planner.after_step(now) == MissionState::kUnderWay);
+    const NoWayCause said = planner.statuses.latest()->value.no_way;
+    CHECK(said == (now - kStart < seconds{15} ? NoWayCause::kNone : NoWayCause::kThrusters));
+  }
+  CHECK(planner.statuses.latest()->value.no_way_since == kStart);
+}
+
+TEST_CASE(
+    "planner task: a position that is lost is named in the plan with the time of the last fix",
+    "[high_level][tasks]") {
+  Planner planner{true};
+  Writer<Attitude> attitudes{planner.board->attitude, Role::kLow, "attitude"};
+  Writer<PositionFix> fixes{planner.board->position_fix, Role::kLow, "position_fix"};
+  PositionFix fix;
+  fix.measured = kStart - seconds{3};
+  fixes.publish(fix, kStart);
+  planner.estimate(0.0, kStart);
+  for (Time now = kStart; now < kStart + seconds{6}; now += milliseconds{50}) {
+    attitudes.publish({now, 0.0, 0.0}, now);
+    (void)planner.after_step(now);
+  }
+  const auto* plan = planner.plans.latest();
+  REQUIRE(plan != nullptr);
+  CHECK(plan->value.reason == PathReason::kNoPosition);
+  CHECK(plan->value.lost_since == fix.measured);
 }
 
 }  // namespace

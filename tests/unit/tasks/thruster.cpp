@@ -80,7 +80,10 @@ TEST_CASE("thruster task: a box that takes no command is said to have failed",
   Thrusters thrusters;
   thrusters.order(40, kStart);
   thrusters.box.works = false;
-  CHECK(thrusters.after_step(kStart).reason == ThrustReason::kDeviceFailed);
+  const ThrustApplied failed = thrusters.after_step(kStart);
+  CHECK(failed.reason == ThrustReason::kDeviceFailed);
+  CHECK(failed.surge_ref == 0);  // nobody may reckon with what was not done
+  CHECK(int{failed.left} == 128);
   thrusters.box.works = true;
   CHECK(thrusters.after_step(kStart + milliseconds{50}).reason == ThrustReason::kCommanded);
 }
