@@ -49,6 +49,10 @@ struct Session {
   Standing standing = Standing::kStranger;
 };
 
+[[nodiscard]] bool is_stranger(const std::shared_ptr<Session>& session) noexcept {
+  return session->standing == Standing::kStranger;
+}
+
 // A descriptor in reserve, given up to let an operator in when the process has no more.
 class SpareDescriptor {
  public:
@@ -129,12 +133,26 @@ struct CommandSocket::Impl {
     sessions.erase(session);
   }
 
+  // Who has been silent longest: of the strangers where they fill their places, else of those that
+  // showed the token. A stranger is thus given the time to speak that it takes as many others to
+  // come. Where all wait for an answer, the last to ask: the first is about to have its own.
+  [[nodiscard]] Sessions::iterator whose_place_to_give() {
+    const auto strangers = std::count_if(sessions.begin(), sessions.end(), is_stranger);
+    const bool of_strangers = static_cast<std::size_t>(strangers) >= kMaxStrangers;
+    const auto rank = [of_strangers](const std::shared_ptr<Session>& session) {
+      const auto heard = session->heard.time_since_epoch();
+      const bool waits = session->standing >= Standing::kAwaitsAnswer;
+      return std::make_tuple(session->standing == Standing::kAwaitsAbort,
+                             is_stranger(session) != of_strangers, session->standing,
+                             waits ? -heard : heard);
+    };
+    return std::min_element(sessions.begin(), sessions.end(),
+                            [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  }
+
   // Whether a session gave up its place.
   [[nodiscard]] bool make_room() {
-    const auto least =
-        std::min_element(sessions.begin(), sessions.end(), [](const auto& a, const auto& b) {
-          return std::tie(a->standing, a->heard) < std::tie(b->standing, b->heard);
-        });
+    const auto least = whose_place_to_give();
     if (least == sessions.end() || (*least)->standing == Standing::kAwaitsAbort) {
       return false;
     }

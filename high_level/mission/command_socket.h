@@ -21,9 +21,11 @@ struct CommandSocketOptions {
   Duration idle_limit = std::chrono::seconds{60};
 };
 
-// Sessions at once. One more takes the place of the one that has been silent longest, strangers
-// first; a session that waits for its abort is never put out.
+// Sessions at once, and how many of them may be strangers, who have not shown the token yet. One
+// more takes the place of the one that has been silent longest, among the strangers where they have
+// all their places; a session that waits for its abort is never put out.
 inline constexpr std::size_t kMaxSessions = 128;
+inline constexpr std::size_t kMaxStrangers = 64;
 
 class CommandSocket {
  public:

@@ -5,6 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/write.hpp>
@@ -144,26 +146,43 @@ TEST_CASE("command socket: a crowd of silent sessions makes way", "[high_level][
   CHECK(ended(*crowd.front()));
 }
 
-TEST_CASE("command socket: a session that waits for its abort is never put out",
+TEST_CASE("command socket: who waits for an abort is never put out, nor the first to wait",
           "[high_level][mission]") {
   std::atomic<bool> confirmed{false};
+  std::atomic<int> handled{0};
   const CommandSocket socket{any_port(), [&](const std::string& command) -> Answer {
+                               ++handled;
                                return [&confirmed, command]() -> std::optional<std::string> {
                                  return confirmed ? std::optional{done(command)} : std::nullopt;
                                };
                              }};
-  const auto abort = connect(socket.port());
-  *abort << line_of("abort") << "\n" << std::flush;
+  const auto begin = [&](const char* command) {
+    auto stream = connect(socket.port());
+    *stream << line_of(command) << "\n" << std::flush;
+    return stream;
+  };
+  const auto first = begin("start");
+  const auto abort = begin("abort");
+  while (handled < 2) {
+    std::this_thread::sleep_for(milliseconds{1});
+  }
   std::vector<std::unique_ptr<Stream>> crowd;
   for (std::size_t i = 0; i < 2 * kMaxSessions; ++i) {
-    crowd.push_back(connect(socket.port()));
-    *crowd.back() << line_of("status") << "\n" << std::flush;
+    crowd.push_back(begin("status"));
   }
-  CHECK(ended(*crowd.front()));
+  // The last has been let in, so that somebody has been put out for it.
+  CHECK(ask(socket.port(), "no command").find("\"ok\":false") != std::string::npos);
   confirmed = true;
   std::string reply;
   std::getline(*abort, reply);
   CHECK(reply == done("abort"));
+  std::getline(*first, reply);
+  CHECK(reply == done("start"));
+  const auto put_out = std::count_if(crowd.begin(), crowd.end(), [](const auto& stream) {
+    std::string line;
+    return !std::getline(*stream, line);
+  });
+  CHECK(put_out >= static_cast<std::ptrdiff_t>(kMaxSessions));
 }
 
 TEST_CASE("command socket: a session that sends without end leaves the others their turn",
