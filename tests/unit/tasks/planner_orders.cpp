@@ -43,7 +43,7 @@ struct PlannerBench {
 }  // namespace
 
 TEST_CASE("planner task: an abort that a thousand orders overwrote is obeyed at the next step",
-          "[high_level][planner]") {
+          "[high_level][tasks]") {
   PlannerBench bench;
   PlannerTask planner{*bench.board, Role::kHigh, planner_options()};
   bench.order(OperatorOrder::kStart);
@@ -62,7 +62,7 @@ TEST_CASE("planner task: an abort that a thousand orders overwrote is obeyed at 
 }
 
 TEST_CASE("planner task: no order of before its start is obeyed, but an abort stands",
-          "[high_level][planner]") {
+          "[high_level][tasks]") {
   for (const bool aborted : {false, true}) {
     PlannerBench bench;
     bench.order(OperatorOrder::kStart);
@@ -78,7 +78,7 @@ TEST_CASE("planner task: no order of before its start is obeyed, but an abort st
 }
 
 TEST_CASE("planner task: one that starts by itself does not after an abort",
-          "[high_level][planner]") {
+          "[high_level][tasks]") {
   PlannerBench bench;
   {
     PlannerTask planner{*bench.board, Role::kHigh, planner_options(true)};
@@ -93,7 +93,7 @@ TEST_CASE("planner task: one that starts by itself does not after an abort",
 }
 
 TEST_CASE("planner task: an abort before there is an estimate calls off its own start",
-          "[high_level][planner]") {
+          "[high_level][tasks]") {
   PlannerBench bench;
   PlannerTask planner{*bench.board, Role::kHigh, planner_options(true)};
   planner.step(bench.now);
