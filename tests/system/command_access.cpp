@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who gets through to a running boat, and who does not: two real processes, and a crowd.
+#include <fcntl.h>
 #include <grp.h>
 #include <sys/wait.h>
 
 #include <iostream>
+#include <sstream>
 
 #include "high_level/mission/token_file.h"
 #include "tests/support/command_crowd.h"
@@ -145,4 +147,25 @@ TEST_CASE("command access: an abort stands when the high level is killed and com
   REQUIRE(eventually([&] { return find_token_file(commanded.port).has_value(); }));
   CHECK(commanded.tell("start") == 0);
   CHECK(commanded.becomes(MissionState::kUnderWay));
+}
+
+TEST_CASE("command access: the port that the kernel chose is always said", "[system]") {
+  const Scratch scratch{"port"};
+  const fs::path said = scratch.file("said");
+  const int own = dup(STDERR_FILENO);
+  const int file = open(said.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  REQUIRE(dup2(file, STDERR_FILENO) == STDERR_FILENO);
+  const Boat boat{scratch};  // takes over the file
+  REQUIRE(dup2(own, STDERR_FILENO) == STDERR_FILENO);
+  close(own);
+  close(file);
+  int port = 0;
+  REQUIRE(eventually([&] { return (port = listening_port(boat.high->pid())) != 0; }));
+  const std::string line =
+      "lodesman-high: command socket on 127.0.0.1 port " + std::to_string(port) + "\n";
+  CHECK(eventually([&] {
+    std::ostringstream text;
+    text << std::ifstream{said}.rdbuf();
+    return text.str().find(line) != std::string::npos;
+  }));
 }

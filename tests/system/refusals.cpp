@@ -219,6 +219,33 @@ TEST_CASE("refusals: sim refuses bad options and configurations", "[system][refu
   }
 }
 
+TEST_CASE(
+    "refusals: an order names a port that can be, a host that is loopback and a sound token file",
+    "[system][refusals]") {
+  const std::vector<std::vector<std::string>> rows{{"--port", "99999"},
+                                                   {"--port", "65536"},
+                                                   {"--port", "abc"},
+                                                   {"--port", "-1"},
+                                                   {"--port", "0"},
+                                                   {"--port", "7447x"},
+                                                   {"--port", ""},
+                                                   {"--host", "192.0.2.1"},
+                                                   {"--host", "boat"},
+                                                   {"--host", ""},
+                                                   {"--token-file", "nothere"}};
+  for (const auto& row : rows) {
+    for (const std::string command : {"abort", "status"}) {
+      INFO(command << " " << row.front() << " " << row.back());
+      const Bench bench;
+      std::vector<std::string> arguments{command};
+      arguments.insert(arguments.end(), row.begin(), row.end());
+      const bool names_file = row.front() == "--token-file";
+      check_refused(bench, bench.run(LODESMAN_PROGRAM, arguments),
+                    names_file ? "^nothere:1: token: cannot be read" : row.front());
+    }
+  }
+}
+
 TEST_CASE("refusals: sim refuses what is no readable file", "[system][refusals]") {
   for (const std::string name : {"nothere.toml", ".", "/", "/dev/null", ""}) {
     INFO(name);
