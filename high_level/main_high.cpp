@@ -21,6 +21,9 @@ namespace lodesman {
 namespace {
 
 constexpr Duration kSegmentPatience = std::chrono::seconds{5};
+constexpr Duration kRefusalPatience = std::chrono::milliseconds{300};
+
+enum class Attachment : std::uint8_t { kFirst, kAgain };
 
 // The operator's way in: the desk, the socket before it, and the token that opens it, which is
 // given or made for this run.
@@ -47,39 +50,139 @@ class WayIn {
   std::optional<TokenFile> token_file_;
 };
 
+// The mission's last word, on a segment that is left or on one that was found.
+[[nodiscard]] std::optional<Stamped<MissionStatus>> last_mission(const SharedBlackboard& board) {
+  Reader<MissionStatus> mission{board->mission_status};
+  const auto* last = mission.latest();
+  return last != nullptr ? std::optional{*last} : std::nullopt;
+}
+
 void report_what_was_found(const SharedBlackboard& board) {
   if (!board.found_dead()) {
     return;
   }
-  Reader<MissionStatus> mission{board->mission_status};
-  const auto* last = mission.latest();
+  const auto last = last_mission(board);
   spdlog::warn("an earlier lodesman-high died; its mission was {}",
-               last != nullptr ? to_string(last->value.state) : "not yet begun");
+               last ? to_string(last->value.state) : "not yet begun");
+}
+
+// Looks for a segment with a living low level. The first one is waited for as long as a start may
+// take, one that comes back for as long as it takes. What cannot be used is refused, once it cannot
+// be what a low level that starts is about to replace.
+class SegmentSearch {
+ public:
+  SegmentSearch(const std::string& segment, Attachment which) : segment_{segment}, which_{which} {}
+
+  // Empty while there is none. Throws NotYetError or StartupError once patience is at its end.
+  [[nodiscard]] std::optional<SharedBlackboard> look() {
+    const Time now = clock_.now();
+    try {
+      return SharedBlackboard::open(segment_, Role::kHigh, Duration::zero());
+    } catch (const NotYetError&) {
+      if (which_ == Attachment::kFirst && now >= begun_ + kSegmentPatience) {
+        throw;
+      }
+      nothing_seen_ = now;
+    } catch (const StartupError&) {
+      if (now >= nothing_seen_ + kRefusalPatience) {
+        throw;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  SteadyClock clock_;
+  std::string segment_;
+  Attachment which_;
+  Time begun_ = clock_.now();
+  Time nothing_seen_ = begun_;
+};
+
+// Empty when told to stop before there was a segment.
+[[nodiscard]] std::optional<SharedBlackboard> attach(const std::string& segment, Attachment which) {
+  SegmentSearch search{segment, which};
+  auto board = search.look();
+  if (!board) {
+    cli::wait_for_stop([&] {
+      board = search.look();
+      return board.has_value();
+    });
+  }
+  return board;
+}
+
+// Says once that the low level has gone, and once that it is back. Meanwhile nothing is to be done:
+// its values go stale, and stale means neutral.
+class LowLevelWatch {
+ public:
+  explicit LowLevelWatch(const SharedBlackboard& board) : board_{board} {}
+  void look() {
+    if (const bool alive = board_.alive(Role::kLow); alive != alive_) {
+      alive_ = alive;
+      spdlog::warn(alive ? "lodesman-low is back"
+                         : "lodesman-low is gone: neutral until it is back");
+    }
+  }
+
+ private:
+  const SharedBlackboard& board_;
+  bool alive_ = true;
+};
+
+// Runs the high level on one segment until a stop is asked for or a new low level has made another.
+void sail(SharedBlackboard& board, const HighLevelOptions& options,
+          const cli::CommandSocketSettings& settings) {
+  HighLevel high{board.writable(), Role::kHigh, options};
+  const WayIn way_in{board.writable(), settings};
+  const auto tasks = high.tasks();
+  HealthWatch health{*board, tasks, SteadyClock{}.now()};
+  const RealtimeRunner runner{tasks, board.writable(), Role::kHigh, cli::end_without};
+  LowLevelWatch low{board};
+  cli::wait_for_stop([&] {
+    low.look();
+    cli::say_what_hangs(health);
+    return board.is_superseded();
+  });
+}
+
+// What the mission was is told to the new segment as if it had been there all along, so that the
+// planner finds there what every restarted one finds: an abort stands, and nothing sails by itself.
+void hand_on(const std::optional<Stamped<MissionStatus>>& mission, SharedBlackboard& board) {
+  if (mission) {
+    Writer<MissionStatus>{board.writable().mission_status, Role::kHigh, "mission_status"}.publish(
+        mission->value, mission->stamp);
+  }
 }
 
 int run(const cli::ProcessOptions& options, bool start_by_itself) {
   const TomlDocument configuration = cli::load_whole_configuration(options.configuration_file);
   const Scenario scenario = cli::load_named_scenario(options.scenario_file);
-  SharedBlackboard board = SharedBlackboard::open(options.segment, Role::kHigh, kSegmentPatience);
-  report_what_was_found(board);
   HighLevelOptions high_options = cli::high_level_options(configuration, scenario);
   high_options.planner.start_by_itself = start_by_itself;
-  HighLevel high{board.writable(), Role::kHigh, high_options};
-  const WayIn way_in{board.writable(), cli::command_socket_settings(configuration)};
+  const auto settings = cli::command_socket_settings(configuration);
   // lodesman-low, which has the same rights, warns if they are missing.
   (void)set_up_realtime();
-  const auto tasks = high.tasks();
-  HealthWatch health{*board, tasks, SteadyClock{}.now()};
-  const RealtimeRunner runner{tasks, board.writable(), Role::kHigh, cli::end_without};
-  bool low_died = false;
-  cli::wait_for_stop([&] {
-    cli::say_what_hangs(health);
-    return low_died = !board.alive(Role::kLow);
-  });
-  if (low_died) {
-    spdlog::error("lodesman-low is gone: stopping");
+  auto board = attach(options.segment, Attachment::kFirst);
+  if (board) {
+    report_what_was_found(*board);
   }
-  return low_died ? cli::kExitFault : cli::kExitDone;
+  while (board) {
+    sail(*board, high_options, settings);
+    if (cli::stop_asked()) {
+      break;
+    }
+    const auto mission = last_mission(*board);
+    high_options.planner.start_by_itself &= !mission || mission->value.started == Time{};
+    spdlog::warn("a new lodesman-low has made segment {} anew: beginning anew on it",
+                 options.segment);
+    board.reset();
+    board = attach(options.segment, Attachment::kAgain);
+    if (board) {
+      hand_on(mission, *board);
+    }
+  }
+  return cli::kExitDone;
 }
 
 }  // namespace

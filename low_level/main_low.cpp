@@ -18,10 +18,11 @@ int run(const cli::ProcessOptions& options) {
   const TomlDocument configuration = cli::load_whole_configuration(options.configuration_file);
   Scenario scenario = cli::load_named_scenario(options.scenario_file);
   scenario.seed = options.seed.value_or(scenario.seed);
+  // A start that is refused leaves everything as it found it, a segment to take over too.
+  cli::require_devices(configuration, scenario);
   SharedBlackboard board = SharedBlackboard::create(options.segment);
-  if (board.found_dead()) {
-    spdlog::warn("segment {}: an earlier lodesman-low died and left it; made anew",
-                 options.segment);
+  if (!board.legacy().empty()) {
+    spdlog::warn("segment {}: {}", options.segment, board.legacy());
   }
   cli::SimulatedBoat boat{board.writable(), configuration, scenario};
   if (const std::string missing = set_up_realtime(); !missing.empty()) {

@@ -18,6 +18,7 @@ inline constexpr int kExitNoGoal = 1;
 inline constexpr int kExitRefused = 2;
 inline constexpr int kExitCollision = 3;
 inline constexpr int kExitFault = 4;
+inline constexpr int kExitNotYet = 75;  // EX_TEMPFAIL: what is needed is not there yet
 
 struct CommonOptions {
   bool json = false;  // exactly one JSON document (or JSON lines) on stdout

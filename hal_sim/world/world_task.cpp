@@ -4,10 +4,24 @@
 #include <algorithm>
 
 namespace lodesman {
+namespace {
+
+// Where the boat lies when nobody has moved it yet: at its start, or, in a segment taken over from
+// a low level that died with its world, where that left it.
+[[nodiscard]] Scenario from_where_it_lies(Scenario scenario, const Blackboard& blackboard) {
+  Reader<WorldTruth> truths{blackboard.world_truth};
+  if (const auto* last = truths.latest(); last != nullptr) {
+    scenario.mission.start = {{{last->value.x_m, last->value.y_m}},
+                              Heading::clockwise_from_y_rad(last->value.heading_rad)};
+  }
+  return scenario;
+}
+
+}  // namespace
 
 WorldTask::WorldTask(const Scenario& scenario, const VesselParameters& vessel,
                      Blackboard& blackboard, SimLink& link)
-    : world_{scenario, vessel},
+    : world_{from_where_it_lies(scenario, blackboard), vessel},
       mission_status_{blackboard.mission_status},
       box_{link.thrust},
       truth_out_{blackboard.world_truth, Role::kLow, "world_truth"},
@@ -16,6 +30,7 @@ WorldTask::WorldTask(const Scenario& scenario, const VesselParameters& vessel,
 void WorldTask::step(Time now) noexcept {
   const Stamped<MissionStatus>* mission = mission_status_.latest();
   const bool started = mission != nullptr && mission->value.started != Time{};
+  const ThrustCommand thrust = thrust_at(box_, now);
   if (started) {
     if (mission->value.started != mission_started_) {
       mission_started_ = mission->value.started;
@@ -25,14 +40,16 @@ void WorldTask::step(Time now) noexcept {
     const Time from = std::max(stepped_to_, std::min(mission->value.started, now));
     const Duration dt = std::clamp(now - from, Duration{}, kLongestStep);
     const Duration scenario_time = std::max(now - mission->value.started, Duration{});
-    world_.step(to_seconds(dt), to_seconds(scenario_time), thrust_at(box_, now));
+    world_.step(to_seconds(dt), to_seconds(scenario_time), thrust);
   }
   stepped_to_ = now;
-  publish(now, started);
+  publish(now, started, thrust);
 }
 
-void WorldTask::publish(Time now, bool started) noexcept {
-  const WorldTruth& truth = world_.truth();
+void WorldTask::publish(Time now, bool started, ThrustCommand thrust) noexcept {
+  WorldTruth truth = world_.truth();
+  truth.thrust_left = thrust.left;
+  truth.thrust_right = thrust.right;
   WorldSample sample;
   sample.stamp = now;
   sample.started = started ? 1 : 0;

@@ -12,7 +12,8 @@ namespace lodesman {
 
 // Until the mission starts the boat lies at its start and the scenario's time stands at 0; from
 // then on both go on for good, also after the mission's end. A new start sets the scenario's time,
-// and with it obstacles and faults, back to 0; the boat stays where it is.
+// and with it obstacles and faults, back to 0; the boat stays where it is. On a blackboard that
+// holds the truth of a world that died, the boat lies where that left it, at rest.
 class WorldTask final : public Task {
  public:
   // Blackboard and link must outlive the task. Throws StartupError when either has a world already.
@@ -27,7 +28,7 @@ class WorldTask final : public Task {
   // After a gap (the machine slept) no more than this is caught up with.
   static constexpr Duration kLongestStep = std::chrono::seconds{1};
 
-  void publish(Time now, bool started) noexcept;
+  void publish(Time now, bool started, ThrustCommand thrust) noexcept;
 
   World world_;
   Reader<MissionStatus> mission_status_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one exception of this project: start-up refuses a file, an option or a machine with one
+// The exceptions of this project: start-up refuses a file, an option or a machine with one
 // line `file:line: key: reason`. Nothing throws once the tasks run.
 #pragma once
 
@@ -24,6 +24,12 @@ class StartupError : public std::runtime_error {
     }
     return text.size() <= kMaxLength ? text : text.substr(0, kMaxLength) + "...";
   }
+};
+
+// Nothing is wrong, but what is needed is not there yet: trying again later may do.
+class NotYetError : public StartupError {
+ public:
+  using StartupError::StartupError;
 };
 
 }  // namespace lodesman

@@ -36,6 +36,11 @@ struct Stamped {
   std::uint64_t sequence = 0;
 };
 
+// What is not lock-free has a lock in this process, which another process does not know of.
+static_assert(std::atomic<std::uint64_t>::is_always_lock_free &&
+              std::atomic<std::int64_t>::is_always_lock_free &&
+              std::atomic<std::uint32_t>::is_always_lock_free);
+
 // Which program writes a channel; stored in the channel as its writer's claim.
 enum class Role : std::uint32_t { kNobody = 0, kLow = 1, kHigh = 2, kOperator = 3 };
 
@@ -76,11 +81,25 @@ class Channel {
   ChannelHead<T, Atomic> head;
   std::array<ChannelSlot<T, Atomic>, kDepth> slots;
 
-  // Frees the claim of a program that is known to be dead.
-  void release_claim_of(Role role) noexcept {
+  // Frees the claim of a program that is known to be dead; true where there was one.
+  bool release_claim_of(Role role) noexcept {
     auto held = static_cast<std::uint32_t>(role);
-    head.writer.compare_exchange_strong(held, 0, std::memory_order_acq_rel);
+    return head.writer.compare_exchange_strong(held, 0, std::memory_order_acq_rel);
   }
+
+  // Whether a successor of its writer can go on with it: the value that the head announces has
+  // been in its place, and whoever claims it is the one that may. A living writer does no harm.
+  [[nodiscard]] bool is_sound(Role writer) const noexcept {
+    const std::uint64_t newest = head.newest.load(std::memory_order_acquire);
+    const std::uint32_t claim = head.writer.load(std::memory_order_acquire);
+    return newest <= kLastSequence &&
+           slots[newest % kDepth].version.load(std::memory_order_acquire) >= 2 * newest &&
+           (claim == 0 || claim == static_cast<std::uint32_t>(writer));
+  }
+
+ private:
+  static constexpr std::uint64_t kLastSequence = std::uint64_t{1}
+                                                 << 62U;  // not reached by counting
 };
 
 // The one writer of a channel: made once, before the tasks run.
@@ -98,6 +117,7 @@ class Writer {
       throw StartupError(std::string{"channel "} + name + " already has a writer");
     }
     sequence_ = head_->newest.load(std::memory_order_acquire);
+    pass_over_ghost();
   }
   Writer(Writer&& other) noexcept
       : head_{std::exchange(other.head_, nullptr)},
@@ -137,9 +157,23 @@ class Writer {
     head_->newest.store(sequence, std::memory_order_release);
   }
 
+  // Of the last publication, or of the ghost that its predecessor left.
   [[nodiscard]] std::uint64_t sequence() const noexcept { return sequence_; }
 
  private:
+  // A predecessor that was killed while it published may have left the value after the newest in
+  // its place, half or whole, but not announced. That number is never used again: a reader that
+  // copies the ghost would take half of it and half of its namesake for one whole value. Nor does
+  // the ghost ever come to count, however whole it is.
+  void pass_over_ghost() noexcept {
+    const std::uint64_t ghost = sequence_ + 1;
+    auto& version = slots_[ghost % count_].version;
+    if (version.load(std::memory_order_acquire) + 1 >= 2 * ghost) {
+      version.store(2 * ghost - 1, std::memory_order_release);
+      sequence_ = ghost;
+    }
+  }
+
   ChannelHead<T, Atomic>* head_;
   ChannelSlot<T, Atomic>* slots_;
   std::size_t count_;

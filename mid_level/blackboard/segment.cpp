@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mid_level/blackboard/segment.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
-#include <boost/interprocess/mapped_region.hpp>
-#include <boost/interprocess/shared_memory_object.hpp>
-#include <cstring>
 #include <new>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "mid_level/base/clock.h"
+#include "mid_level/blackboard/segment_file.h"
 #include "mid_level/messages/layout.h"
 
 namespace lodesman {
@@ -22,35 +21,9 @@ struct SegmentLayout {
   Blackboard board;
 };
 
-// Byte ranges of the segment that programs lock: one a role.
-[[nodiscard]] struct flock role_lock(Role role) noexcept {
-  struct flock lock {};
-  lock.l_type = F_WRLCK;
-  lock.l_whence = SEEK_SET;
-  lock.l_start = static_cast<off_t>(role);
-  lock.l_len = 1;
-  return lock;
-}
-
-// Open-file-description locks: dropped by the kernel when the last descriptor goes, so a killed
-// program never leaves one behind, and closing another descriptor of the file does no harm.
-[[nodiscard]] bool take_lock(int descriptor, Role role) noexcept {
-  auto lock = role_lock(role);
-  return fcntl(descriptor, F_OFD_SETLK, &lock) == 0;
-}
-
-[[nodiscard]] bool is_locked(int descriptor, Role role) noexcept {
-  auto lock = role_lock(role);
-  return fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
-}
-
-[[nodiscard]] int descriptor_of(const bip::shared_memory_object& memory) noexcept {
-  return memory.get_mapping_handle().handle;
-}
-
-[[nodiscard]] bip::shared_memory_object open_object(const std::string& name, bip::mode_t mode) {
-  return bip::shared_memory_object{bip::open_only, name.c_str(), mode};
-}
+constexpr const char* kNotReady = "is not ready";
+// Each failed one means that somebody else has just made or removed the segment.
+constexpr int kMaxAttempts = 1000;
 
 class Fnv {
  public:
@@ -113,7 +86,7 @@ std::string header_fault(const SegmentHeader& header, std::uint64_t mapped_bytes
     return "is shorter than a header";
   }
   if (header.ready.load(std::memory_order_acquire) != SegmentHeader::kReady) {
-    return "is not ready";
+    return kNotReady;
   }
   if (header.magic.load(std::memory_order_relaxed) != SegmentHeader::kMagic) {
     return "is no Lodesman segment";
@@ -129,105 +102,159 @@ std::string header_fault(const SegmentHeader& header, std::uint64_t mapped_bytes
 }
 
 struct SharedBlackboard::Impl {
+  Impl(std::string name_in, SegmentFile file_in)
+      : name{std::move(name_in)}, file{std::move(file_in)} {}
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() {
+    if (owns_name) {
+      file.remove_name();
+    }
+  }
+
   std::string name;
-  bip::shared_memory_object memory;
+  SegmentFile file;
   bip::mapped_region region;
-  bool owner = false;
+  bool owns_name = false;  // by the low level's lock
   bool writable = false;
   bool found_dead = false;
+  std::string legacy;
 
   [[nodiscard]] SegmentLayout* layout() const noexcept {
     return static_cast<SegmentLayout*>(region.get_address());
+  }
+
+  void map(bip::mode_t mode) {
+    region = file.map(mode);
+    writable = mode == bip::read_write;
+  }
+
+  // Why the mapped segment cannot be used; empty when it can.
+  [[nodiscard]] std::string fault() const {
+    return header_fault(*static_cast<const SegmentHeader*>(region.get_address()),
+                        region.get_size());
+  }
+
+  void make() {
+    file.reserve(sizeof(SegmentLayout));
+    map(bip::read_write);
+    SegmentHeader& header = (::new (region.get_address()) SegmentLayout)->header;
+    header.magic.store(SegmentHeader::kMagic, std::memory_order_relaxed);
+    header.layout_hash.store(layout_hash(), std::memory_order_relaxed);
+    header.size_bytes.store(region.get_size(), std::memory_order_relaxed);
+    header.creator_pid.store(static_cast<std::uint64_t>(getpid()), std::memory_order_relaxed);
+    header.ready.store(SegmentHeader::kReady, std::memory_order_release);
+  }
+
+  // Goes on with a dead low level's segment: the file, and with it everyone who has it mapped,
+  // stays. Gives why that cannot be; empty when it is done.
+  [[nodiscard]] std::string adopt() {
+    if (file.size() != sizeof(SegmentLayout)) {
+      return "has the wrong size";
+    }
+    map(bip::read_write);
+    std::string unfit = fault();
+    if (!unfit.empty()) {
+      return unfit;
+    }
+    for_each_channel(layout()->board, [&](const ChannelInfo& info, const auto& channel) {
+      if (unfit.empty() && !channel.is_sound(info.writer)) {
+        unfit = std::string{"holds a broken channel, "} + info.name;
+      }
+    });
+    if (unfit.empty()) {
+      file.make_private();
+      free_claims_of(Role::kLow);
+      layout()->header.creator_pid.store(static_cast<std::uint64_t>(getpid()),
+                                         std::memory_order_relaxed);
+    }
+    return unfit;
+  }
+
+  // Of a program that is dead, as who holds its role's lock knows. Only who died holds claims: at
+  // an orderly end they are given up.
+  void free_claims_of(Role role) noexcept {
+    for_each_channel(layout()->board, [&](const ChannelInfo& /*info*/, auto& channel) {
+      found_dead |= channel.release_claim_of(role);
+    });
   }
 };
 
 SharedBlackboard::SharedBlackboard(std::unique_ptr<Impl> impl) noexcept : impl_{std::move(impl)} {}
 SharedBlackboard::SharedBlackboard(SharedBlackboard&&) noexcept = default;
 SharedBlackboard& SharedBlackboard::operator=(SharedBlackboard&&) noexcept = default;
-
-SharedBlackboard::~SharedBlackboard() {
-  if (impl_ != nullptr && impl_->owner) {
-    bip::shared_memory_object::remove(impl_->name.c_str());
-  }
-}
+SharedBlackboard::~SharedBlackboard() = default;
 
 SharedBlackboard SharedBlackboard::create(const std::string& name) {
-  auto impl = std::make_unique<Impl>();
-  impl->name = name;
-  try {
-    const auto old = open_object(name, bip::read_write);
-    if (!take_lock(descriptor_of(old), Role::kLow)) {
-      throw StartupError("segment " + name + " is in use by a running lodesman-low");
+  std::string replaced;
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+    auto impl = std::make_unique<Impl>(name, SegmentFile::open_or_create(name));
+    impl->file.require_own();
+    const bool locked = impl->file.lock(Role::kLow);
+    if (!impl->file.has_name()) {
+      continue;  // removed between the two: it is nobody's segment any more
     }
-    impl->found_dead = true;
-    bip::shared_memory_object::remove(name.c_str());
-  } catch (const bip::interprocess_exception&) {
-    // There is none: the usual case.
-  }
-  try {
-    impl->memory = bip::shared_memory_object{bip::create_only, name.c_str(), bip::read_write};
-    if (!take_lock(descriptor_of(impl->memory), Role::kLow)) {
-      throw StartupError("segment " + name + " is in use by a running lodesman-low");
+    if (!locked) {
+      break;
     }
-    impl->memory.truncate(sizeof(SegmentLayout));
-    impl->region = bip::mapped_region{impl->memory, bip::read_write};
-  } catch (const bip::interprocess_exception& error) {
-    throw StartupError("segment " + name + " cannot be made: " + error.what());
+    impl->owns_name = true;
+    if (impl->file.size() == 0) {
+      impl->make();
+      impl->legacy = std::move(replaced);
+      return SharedBlackboard{std::move(impl)};
+    }
+    const std::string unfit = impl->adopt();
+    if (unfit.empty()) {
+      impl->legacy = "taken over from a lodesman-low that died";
+      return SharedBlackboard{std::move(impl)};
+    }
+    // Its name goes with `impl`; the next attempt makes a new file.
+    replaced = "made anew: what was there " + unfit;
   }
-  impl->owner = true;
-  impl->writable = true;
-  auto* layout = ::new (impl->region.get_address()) SegmentLayout;
-  layout->header.magic.store(SegmentHeader::kMagic, std::memory_order_relaxed);
-  layout->header.layout_hash.store(layout_hash(), std::memory_order_relaxed);
-  layout->header.size_bytes.store(impl->region.get_size(), std::memory_order_relaxed);
-  layout->header.creator_pid.store(static_cast<std::uint64_t>(getpid()), std::memory_order_relaxed);
-  layout->header.ready.store(SegmentHeader::kReady, std::memory_order_release);
-  return SharedBlackboard{std::move(impl)};
+  throw StartupError("segment " + name + " is in use by a running lodesman-low");
 }
 
 namespace {
 
+// The segment as it is mapped by who did not make it.
 template <class Impl>
 [[nodiscard]] std::unique_ptr<Impl> map_existing(const std::string& name, bip::mode_t mode) {
-  auto impl = std::make_unique<Impl>();
-  impl->name = name;
-  try {
-    impl->memory = open_object(name, mode);
-    bip::offset_t size = 0;
-    if (!impl->memory.get_size(size) || size < static_cast<bip::offset_t>(sizeof(SegmentHeader))) {
-      throw StartupError("segment " + name + " is shorter than a header");
-    }
-    impl->region = bip::mapped_region{impl->memory, mode};
-  } catch (const bip::interprocess_exception&) {
-    throw StartupError("segment " + name + " does not exist: is lodesman-low running?");
+  auto impl = std::make_unique<Impl>(name, SegmentFile::open(name, mode));
+  impl->file.require_own_or_root();
+  if (impl->file.size() < sizeof(SegmentHeader)) {
+    throw NotYetError("segment " + name + " is not ready");
   }
-  const auto* header = static_cast<const SegmentHeader*>(impl->region.get_address());
-  if (const auto fault = header_fault(*header, impl->region.get_size()); !fault.empty()) {
+  impl->map(mode);
+  if (const auto fault = impl->fault(); fault == kNotReady) {
+    throw NotYetError("segment " + name + " " + fault);
+  } else if (!fault.empty()) {
     throw StartupError("segment " + name + " " + fault);
   }
-  impl->writable = mode == bip::read_write;
   return impl;
 }
 
 }  // namespace
 
 SharedBlackboard SharedBlackboard::open(const std::string& name, Role role, Duration patience) {
-  auto impl = wait_for(patience, [&] { return map_existing<Impl>(name, bip::read_write); });
-  if (!take_lock(descriptor_of(impl->memory), role)) {
-    throw StartupError("segment " + name + ": a program in the same role is running");
-  }
-  for_each_channel(impl->layout()->board, [&](const ChannelInfo& info, auto& channel) {
-    if (info.writer == role) {
-      impl->found_dead = impl->found_dead || channel.head.newest.load() != 0;
-      channel.release_claim_of(role);
+  return wait_for(patience, [&] {
+    auto impl = map_existing<Impl>(name, bip::read_write);
+    if (!impl->file.is_locked(Role::kLow)) {
+      throw NotYetError("segment " + name + " was left by a lodesman-low that died");
     }
+    if (!impl->file.lock(role)) {
+      throw StartupError("segment " + name + ": a program in the same role is running");
+    }
+    if (!impl->file.has_name()) {
+      throw NotYetError("segment " + name + " has just been removed");
+    }
+    impl->free_claims_of(role);
+    return SharedBlackboard{std::move(impl)};
   });
-  return SharedBlackboard{std::move(impl)};
 }
 
 SharedBlackboard SharedBlackboard::observe(const std::string& name, Duration patience) {
-  return SharedBlackboard{
-      wait_for(patience, [&] { return map_existing<Impl>(name, bip::read_only); })};
+  return wait_for(patience,
+                  [&] { return SharedBlackboard{map_existing<Impl>(name, bip::read_only)}; });
 }
 
 Blackboard& SharedBlackboard::writable() noexcept {
@@ -237,18 +264,33 @@ Blackboard& SharedBlackboard::writable() noexcept {
 
 const Blackboard& SharedBlackboard::operator*() const noexcept { return impl_->layout()->board; }
 
-bool SharedBlackboard::alive(Role role) const noexcept {
-  return is_locked(descriptor_of(impl_->memory), role);
+bool SharedBlackboard::alive(Role role) const noexcept { return impl_->file.is_locked(role); }
+
+bool SharedBlackboard::is_superseded() const {
+  if (alive(Role::kLow) || impl_->file.has_name()) {
+    return false;
+  }
+  try {
+    return SegmentFile::open(impl_->name, bip::read_only).is_locked(Role::kLow);
+  } catch (const StartupError&) {
+    return false;
+  }
 }
 
 bool SharedBlackboard::found_dead() const noexcept { return impl_->found_dead; }
 
+const std::string& SharedBlackboard::legacy() const noexcept { return impl_->legacy; }
+
 bool remove_dead_segment(const std::string& name) {
   try {
-    const auto old = open_object(name, bip::read_write);
-    return take_lock(descriptor_of(old), Role::kLow) &&
-           bip::shared_memory_object::remove(name.c_str());
-  } catch (const bip::interprocess_exception&) {
+    const auto file = SegmentFile::open(name, bip::read_write);
+    file.require_own();
+    const bool is_dead = file.lock(Role::kLow) && file.lock(Role::kHigh) && file.has_name();
+    if (is_dead) {
+      file.remove_name();
+    }
+    return is_dead;
+  } catch (const StartupError&) {
     return false;
   }
 }

@@ -90,6 +90,9 @@ struct WorldTruth {
   double least_inoffensive_distance_m = 0.0;     // [m]
   double least_inoffensive_distance_at_s = 0.0;  // [s] its scenario time
   double least_hull_clearance_m = 0.0;           // [m]
+  // What the propellers run at: the box's output, its own time-out included.
+  std::uint8_t thrust_left = 128;   // [-] [0, 255] 127 and 128 stop
+  std::uint8_t thrust_right = 128;  // [-] [0, 255]
 
   static constexpr auto fields() noexcept {
     using W = WorldTruth;
@@ -105,7 +108,9 @@ struct WorldTruth {
         field("hull_clearance_m", &W::hull_clearance_m).or_infinite(),
         field("least_inoffensive_distance_m", &W::least_inoffensive_distance_m).or_infinite(),
         field("least_inoffensive_distance_at_s", &W::least_inoffensive_distance_at_s),
-        field("least_hull_clearance_m", &W::least_hull_clearance_m).or_infinite()};
+        field("least_hull_clearance_m", &W::least_hull_clearance_m).or_infinite(),
+        field("thrust_left", &W::thrust_left),
+        field("thrust_right", &W::thrust_right)};
   }
 };
 

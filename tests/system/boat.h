@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <random>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,7 +17,6 @@
 #include "deploy/cli/run/settings.h"
 #include "mid_level/base/clock.h"
 #include "mid_level/blackboard/segment.h"
-#include "tests/support/catch.h"
 
 namespace lodesman::testing {
 
@@ -32,7 +31,9 @@ class Scratch {
   explicit Scratch(const std::string& name) {
     std::string pattern =
         (fs::temp_directory_path() / ("lodesman-test-" + name + "-XXXXXX")).string();
-    REQUIRE(mkdtemp(pattern.data()) != nullptr);
+    if (mkdtemp(pattern.data()) == nullptr) {
+      throw std::runtime_error(pattern + " cannot be made");
+    }
     directory_ = pattern;
   }
   Scratch(const Scratch&) = delete;
@@ -53,9 +54,9 @@ class Scratch {
 };
 
 // A goal that is far enough to be under way while things die.
-inline std::string scenario_text(double goal_y_m) {
-  return "name = \"short\"\nseed = 1\ntime_limit_s = 120.0\n[mission]\nstart_m = [0.0, 0.0]\n"
-         "start_heading_deg = 0.0\ngoal_m = [0.0, " +
+inline std::string scenario_text(double goal_y_m, double time_limit_s = 120.0) {
+  return "name = \"short\"\nseed = 1\ntime_limit_s = " + std::to_string(time_limit_s) +
+         "\n[mission]\nstart_m = [0.0, 0.0]\nstart_heading_deg = 0.0\ngoal_m = [0.0, " +
          std::to_string(goal_y_m) +
          "]\ngoal_radius_m = 0.5\n[vehicle]\nspeed_m_s = 0.74\nradius_m = 0.5\n";
 }
@@ -80,7 +81,9 @@ bool eventually(Condition condition, Duration patience = kPatience) {
 template <class T>
 const Stamped<T>& await_first(Reader<T>& reader) {
   const Stamped<T>* newest = nullptr;
-  REQUIRE(eventually([&] { return (newest = reader.latest()) != nullptr; }));
+  if (!eventually([&] { return (newest = reader.latest()) != nullptr; })) {
+    throw std::runtime_error("nothing was published");
+  }
   return *newest;
 }
 
@@ -104,12 +107,13 @@ inline bool any_segment_of(pid_t launcher) {
 
 // Both programs on a segment of this test's own.
 struct Boat {
-  explicit Boat(const Scratch& scratch)
+  explicit Boat(const Scratch& scratch, const std::string& profile = "paper",
+                const std::string& scenario_toml = scenario_text(25.0))
       : segment{"lodesman-test-boat-" + std::to_string(getpid())} {
     CommonOptions options;
     options.sets = {"command_socket.port = 0"};
-    const auto config = scratch.file("config.toml", load_configuration("paper", options).to_text());
-    const auto scenario = scratch.file("scenario.toml", scenario_text(25.0));
+    const auto config = scratch.file("config.toml", load_configuration(profile, options).to_text());
+    const auto scenario = scratch.file("scenario.toml", scenario_toml);
     arguments = {"--segment",     segment,      "--config",
                  config.string(), "--scenario", scenario.string()};
     start_low();
@@ -136,31 +140,6 @@ struct Boat {
 inline bool drives(const Stamped<ThrustApplied>* thrust) {
   return thrust != nullptr && thrust->value.reason == ThrustReason::kCommanded &&
          thrust->value.left > 128;
-}
-
-// Kills the high level after a random while under way. Gives how long after its last command the
-// thrusters were neutral, by the stamps of what was published.
-inline double neutral_after_kill_s(Boat& boat, std::mt19937& random) {
-  const auto board = SharedBlackboard::observe(boat.segment, kPatience);
-  Reader<ThrustApplied> thrust{board->thrust_applied};
-  Reader<HelmCommand> helm{board->helm_command};
-  REQUIRE(eventually([&] { return drives(thrust.latest()); }));
-  std::this_thread::sleep_for(milliseconds{random() % 300});
-  REQUIRE(kill(boat.high->pid(), SIGKILL) == 0);
-  REQUIRE(eventually([&] { return boat.high->ended().has_value(); }));
-  const Time last_command = await_first(helm).stamp;
-  const Stamped<ThrustApplied>* neutral = nullptr;
-  REQUIRE(eventually([&] {
-    const auto* newest = thrust.next();
-    const bool found = newest != nullptr && newest->stamp > last_command &&
-                       newest->value.reason == ThrustReason::kStaleCommand;
-    neutral = found ? newest : nullptr;
-    return found;
-  }));
-  CHECK(int{neutral->value.left} == 128);
-  CHECK(int{neutral->value.right} == 128);
-  CHECK_FALSE(boat.low->ended().has_value());
-  return to_seconds(neutral->stamp - last_command);
 }
 
 }  // namespace lodesman::testing

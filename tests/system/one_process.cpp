@@ -8,6 +8,7 @@
 #include "deploy/cli/run/simulated_boat.h"
 #include "mid_level/recording/recording_hash.h"
 #include "mid_level/runtime/run_realtime.h"
+#include "tests/support/catch.h"
 #include "tests/system/boat.h"
 
 using namespace lodesman;

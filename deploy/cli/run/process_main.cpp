@@ -44,6 +44,9 @@ void hold_closed_streams() noexcept {
     }
     std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.what());
     return kExitRefused;
+  } catch (const NotYetError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return kExitNotYet;
   } catch (const StartupError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return kExitRefused;

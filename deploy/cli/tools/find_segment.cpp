@@ -71,7 +71,7 @@ std::string choose_segment(const std::string& named, const std::vector<std::stri
     return named.substr(named.find_last_of('/') + 1);
   }
   if (found.empty()) {
-    throw StartupError("--segment: there is no /dev/shm/lodesman-*: is lodesman-low running?");
+    throw NotYetError("--segment: there is no /dev/shm/lodesman-*: is lodesman-low running?");
   }
   if (alive.size() == 1) {
     return alive.front();

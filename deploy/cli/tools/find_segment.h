@@ -12,7 +12,8 @@ namespace lodesman::cli {
 [[nodiscard]] std::vector<std::string> segments_in(const std::filesystem::path& directory);
 
 // `named` where it is not empty (its path in /dev/shm will do); else the only one of `found`, or
-// of those of them that are `alive`. Throws StartupError where there is none or a choice.
+// of those of them that are `alive`. Throws NotYetError where there is none, StartupError where
+// there is a choice.
 [[nodiscard]] std::string choose_segment(const std::string& named,
                                          const std::vector<std::string>& found,
                                          const std::vector<std::string>& alive);

@@ -159,6 +159,66 @@ TEST_CASE("channel: the claim of a dead writer can be freed, and its last value 
   CHECK(reader.latest()->value.words[0] == 9);
 }
 
+TEST_CASE("channel: the value that a killed writer did not announce never counts",
+          "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Block, 4>>();
+  {
+    Writer<Block> first{*channel, Role::kHigh, "blocks"};
+    first.publish(Block::of(1), at(0));
+    first.publish(Block::of(2), at(0));
+  }
+  // Killed between the even version of value 2 and the head that announces it.
+  channel->head.newest.store(1);
+  Reader<Block> reader{*channel};
+  CHECK(reader.at(2) == nullptr);
+  Writer<Block> second{*channel, Role::kHigh, "blocks"};
+  // No reader that is copying the ghost can find its number whole again.
+  CHECK(channel->slots[2].version.load() % 2 == 1);
+  second.publish(Block::of(3), at(0));
+  CHECK(reader.latest()->sequence == 3);
+  CHECK(reader.at(2) == nullptr);
+  Reader<Block> one_by_one{*channel};
+  CHECK(one_by_one.next()->sequence == 1);
+  CHECK(one_by_one.next()->sequence == 3);
+  CHECK(one_by_one.missed() == 1);
+}
+
+TEST_CASE("channel: a successor never writes the number that a killed writer began",
+          "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Block, 4>>();
+  for (const std::uint64_t version : {1U, 2U}) {  // half written, whole
+    channel->slots[1].version.store(version);
+    Writer<Block> writer{*channel, Role::kHigh, "blocks"};
+    CHECK(writer.sequence() == 1);
+    CHECK(channel->slots[1].version.load() == 1);
+  }
+  Writer<Block> writer{*channel, Role::kHigh, "blocks"};
+  writer.publish(Block::of(5), at(0));
+  CHECK(writer.sequence() == 2);
+}
+
+TEST_CASE("channel: a ring whose head says more than its slots hold is not sound",
+          "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Block, 3>>();
+  CHECK(channel->is_sound(Role::kLow));
+  {
+    Writer<Block> writer{*channel, Role::kLow, "blocks"};
+    for (std::uint64_t i = 1; i <= 7; ++i) {
+      writer.publish(Block::of(i), at(0));
+    }
+    CHECK(channel->is_sound(Role::kLow));
+    CHECK_FALSE(channel->is_sound(Role::kHigh));
+  }
+  CHECK(channel->is_sound(Role::kHigh));
+  for (const std::uint64_t newest : {8ULL, 1ULL << 63U, ~0ULL}) {
+    channel->head.newest.store(newest);
+    CHECK_FALSE(channel->is_sound(Role::kLow));
+  }
+  channel->head.newest.store(7);
+  channel->head.writer.store(77);
+  CHECK_FALSE(channel->is_sound(Role::kLow));
+}
+
 TEST_CASE("channel: concurrent readers see whole values in order", "[mid_level][blackboard]") {
   const auto channel = std::make_unique<Channel<Block, 3>>();
   std::atomic<bool> done{false};

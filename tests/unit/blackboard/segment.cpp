@@ -6,8 +6,14 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "tests/support/catch.h"
 
@@ -19,7 +25,80 @@ std::string own_name(const char* test) {
   return "lodesman-test-" + std::string{test} + "-" + std::to_string(getpid());
 }
 
+constexpr Duration kPatience = std::chrono::seconds{20};
+
+[[noreturn]] void die() {
+  kill(getpid(), SIGKILL);
+  std::abort();
+}
+
+[[noreturn]] void wait_for_ever() {
+  for (;;) {
+    pause();
+  }
+}
+
+// A process that runs `body`, until it is killed.
+class Life {
+ public:
+  template <class Body>
+  explicit Life(Body body) : child_{fork()} {
+    if (child_ == 0) {
+      body();
+      std::abort();
+    }
+  }
+  Life(const Life&) = delete;
+  Life& operator=(const Life&) = delete;
+  ~Life() { end(); }
+  void end() const {
+    if (!ended_) {
+      kill(child_, SIGKILL);
+      waitpid(child_, nullptr, 0);
+      ended_ = true;
+    }
+  }
+
+ private:
+  pid_t child_;
+  mutable bool ended_ = false;
+};
+
+template <class Body>
+void die_as(Body body) {
+  const pid_t child = fork();
+  if (child == 0) {
+    body();
+    std::abort();
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  REQUIRE(WIFSIGNALED(status));
+  REQUIRE(WTERMSIG(status) == SIGKILL);
+}
+
 bool exists(const std::string& name) { return std::filesystem::exists("/dev/shm/" + name); }
+
+// The file of a segment, as its bytes.
+class Bytes {
+ public:
+  explicit Bytes(const std::string& name) : path_{"/dev/shm/" + name} {}
+  void put(std::size_t offset, std::uint64_t word) {
+    std::fstream file{path_, std::ios::in | std::ios::out | std::ios::binary};
+    file.seekp(static_cast<std::streamoff>(offset));
+    file.write(reinterpret_cast<const char*>(&word), sizeof word);
+  }
+  void lengthen() { std::filesystem::resize_file(path_, std::filesystem::file_size(path_) + 4096); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+struct Layout {
+  SegmentHeader header;
+  Blackboard board;
+};
+constexpr std::size_t kBoardOffset = offsetof(Layout, board);
 
 }  // namespace
 
@@ -63,43 +142,129 @@ TEST_CASE("segment: there is none without a low level", "[mid_level][blackboard]
                     "segment " + name + " does not exist: is lodesman-low running?");
 }
 
-TEST_CASE(
-    "segment: a killed high level's channels can be claimed again, a killed low level's "
-    "segment is made anew",
-    "[mid_level][blackboard]") {
-  const auto name = own_name("killed");
-  const auto die_as = [&](auto body) {
-    const pid_t child = fork();
-    if (child == 0) {
-      body();
-      kill(getpid(), SIGKILL);
-    }
-    int status = 0;
-    waitpid(child, &status, 0);
-    REQUIRE(WIFSIGNALED(status));
-  };
+TEST_CASE("segment: a killed high level's channels can be claimed again",
+          "[mid_level][blackboard]") {
+  const auto name = own_name("killed-high");
+  const auto low = SharedBlackboard::create(name);
+  die_as([&] {
+    auto high = SharedBlackboard::open(name, Role::kHigh, Duration::zero());
+    Writer<HelmCommand> writer{high.writable().helm_command, Role::kHigh, "helm_command"};
+    writer.publish(HelmCommand{}, Time{Duration{1}});
+    die();
+  });
+  CHECK_FALSE(low.alive(Role::kHigh));
   {
-    auto low = SharedBlackboard::create(name);
-    die_as([&] {
-      auto high = SharedBlackboard::open(name, Role::kHigh, Duration::zero());
-      Writer<HelmCommand> writer{high.writable().helm_command, Role::kHigh, "helm_command"};
-      writer.publish(HelmCommand{}, Time{Duration{1}});
-    });
-    CHECK_FALSE(low.alive(Role::kHigh));
     auto again = SharedBlackboard::open(name, Role::kHigh, Duration::zero());
     CHECK(again.found_dead());
     Writer<HelmCommand> writer{again.writable().helm_command, Role::kHigh, "helm_command"};
     CHECK(writer.sequence() == 1);
   }
-  die_as([&] {
-    auto low = std::make_unique<SharedBlackboard>(SharedBlackboard::create(name));
-    (void)low.release();
-  });
-  CHECK(exists(name));
-  {
-    const auto low = SharedBlackboard::create(name);
-    CHECK(low.found_dead());
+  // That one ended in order, which is no death although its values are there.
+  CHECK_FALSE(SharedBlackboard::open(name, Role::kHigh, Duration::zero()).found_dead());
+}
+
+TEST_CASE("segment: a dead one of this build is taken over, and who is attached goes on",
+          "[mid_level][blackboard]") {
+  const auto name = own_name("adopted");
+  std::optional<SharedBlackboard> high;
+  std::optional<Writer<HelmCommand>> helm;
+  const Life low{[&] {
+    auto board = SharedBlackboard::create(name);
+    Writer<Attitude> writer{board.writable().attitude, Role::kLow, "attitude"};
+    writer.publish(Attitude{}, Time{Duration{7}});
+    wait_for_ever();
+  }};
+  high.emplace(SharedBlackboard::open(name, Role::kHigh, kPatience));
+  helm.emplace(high->writable().helm_command, Role::kHigh, "helm_command");
+  Reader<Attitude> attitude{(*high)->attitude};
+  while (attitude.latest() == nullptr) {
   }
+  low.end();
+  CHECK_FALSE(high->alive(Role::kLow));
+  CHECK_FALSE(high->is_superseded());
+  {
+    auto successor = SharedBlackboard::create(name);
+    CHECK(successor.legacy() == "taken over from a lodesman-low that died");
+    CHECK(successor.found_dead());
+    CHECK(high->alive(Role::kLow));
+    CHECK_FALSE(high->is_superseded());
+    // What was there is there, and both sides hear each other on the same channels.
+    Writer<Attitude> writer{successor.writable().attitude, Role::kLow, "attitude"};
+    CHECK(writer.sequence() == 1);
+    writer.publish(Attitude{}, Time{Duration{9}});
+    CHECK(attitude.latest()->stamp == Time{Duration{9}});
+    helm->publish(HelmCommand{}, Time{Duration{11}});
+    CHECK(Reader<HelmCommand>{successor->helm_command}.latest()->stamp == Time{Duration{11}});
+    // The claims of the living stay theirs.
+    CHECK_THROWS((Writer<HelmCommand>{successor.writable().helm_command, Role::kHigh, "helm"}));
+  }
+  CHECK_FALSE(exists(name));
+}
+
+TEST_CASE(
+    "segment: a dead one that cannot be gone on with is made anew, and who is attached sees it",
+    "[mid_level][blackboard]") {
+  const auto spoil_hash = [](Bytes& bytes) { bytes.put(offsetof(SegmentHeader, layout_hash), 1); };
+  const auto spoil_ready = [](Bytes& bytes) { bytes.put(offsetof(SegmentHeader, ready), 0); };
+  const auto lengthen = [](Bytes& bytes) { bytes.lengthen(); };
+  const auto spoil_head = [](Bytes& bytes) {
+    bytes.put(kBoardOffset + offsetof(Blackboard, attitude), std::uint64_t{1} << 63U);
+  };
+  const std::vector<std::pair<std::function<void(Bytes&)>, std::string>> kinds{
+      {spoil_hash, "was made by a build with another layout; use programs of one build"},
+      {spoil_ready, "is not ready"},
+      {lengthen, "has the wrong size"},
+      {spoil_head, "holds a broken channel, attitude"}};
+  for (const auto& [spoil, fault] : kinds) {
+    const auto name = own_name("anew");
+    const Life low{[&] {
+      const auto board = SharedBlackboard::create(name);
+      wait_for_ever();
+    }};
+    const auto high = SharedBlackboard::open(name, Role::kHigh, kPatience);
+    low.end();
+    Bytes bytes{name};
+    spoil(bytes);
+    {
+      const auto successor = SharedBlackboard::create(name);
+      CHECK(successor.legacy() == "made anew: what was there " + fault);
+      CHECK(high.is_superseded());
+      CHECK_FALSE(SharedBlackboard::open(name, Role::kHigh, Duration::zero()).is_superseded());
+    }
+    CHECK_FALSE(exists(name));
+  }
+}
+
+TEST_CASE("segment: a high level waits for a living low level", "[mid_level][blackboard]") {
+  const auto name = own_name("waits");
+  CHECK_THROWS_AS(SharedBlackboard::open(name, Role::kHigh, Duration::zero()), NotYetError);
+  die_as([&] {
+    const auto board = SharedBlackboard::create(name);
+    die();
+  });
+  CHECK_THROWS_WITH(SharedBlackboard::open(name, Role::kHigh, Duration::zero()),
+                    "segment " + name + " was left by a lodesman-low that died");
+  CHECK_THROWS_AS(SharedBlackboard::open(name, Role::kHigh, Duration::zero()), NotYetError);
+  CHECK_FALSE(SharedBlackboard::observe(name, Duration::zero()).alive(Role::kLow));
+  const auto low = SharedBlackboard::create(name);
+  CHECK_NOTHROW(SharedBlackboard::open(name, Role::kHigh, Duration::zero()));
+}
+
+TEST_CASE("segment: a dead one that a high level still lives on is not cleared away",
+          "[mid_level][blackboard]") {
+  const auto name = own_name("cleared");
+  {
+    const Life low{[&] {
+      const auto board = SharedBlackboard::create(name);
+      wait_for_ever();
+    }};
+    const auto high = SharedBlackboard::open(name, Role::kHigh, kPatience);
+    CHECK_FALSE(remove_dead_segment(name));
+    low.end();
+    CHECK_FALSE(remove_dead_segment(name));
+    CHECK(exists(name));
+  }
+  CHECK(remove_dead_segment(name));
   CHECK_FALSE(exists(name));
 }
 

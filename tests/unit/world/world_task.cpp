@@ -151,5 +151,37 @@ TEST_CASE("world task: one world to a blackboard", "[hal_sim][world]") {
   CHECK_THROWS_AS((WorldTask{bench.scenario, shipped_vessel(), *bench.board, other}), StartupError);
 }
 
+TEST_CASE("world task: the truth says what the propellers run at, the box's time-out included",
+          "[hal_sim][world]") {
+  Bench bench;
+  bench.start();
+  REQUIRE(bench.box.command({200, 90}, bench.now));
+  bench.run_for(kBoxTimeOut);
+  CHECK(int{bench.truths.latest()->value.thrust_left} == 200);
+  CHECK(int{bench.truths.latest()->value.thrust_right} == 90);
+  bench.run_for(milliseconds{20});
+  CHECK(int{bench.truths.latest()->value.thrust_left} == int{kNeutralThrust.left});
+  CHECK(int{bench.truths.latest()->value.thrust_right} == int{kNeutralThrust.right});
+}
+
+TEST_CASE("world task: on the blackboard of a world that died the boat lies where that left it",
+          "[hal_sim][world]") {
+  Bench bench;
+  bench.start();
+  for (int i = 0; i < 10; ++i) {
+    REQUIRE(bench.box.command({255, 200}, bench.now));
+    bench.run_for(milliseconds{500});
+  }
+  const WorldTruth last = bench.truths.latest()->value;
+  REQUIRE(last.y_m > 1.0);
+  // As SharedBlackboard::create() does with the claims of the dead.
+  REQUIRE(bench.board->world_truth.release_claim_of(Role::kLow));
+  const auto link = std::make_unique<SimLink>();
+  const WorldTask successor{bench.scenario, shipped_vessel(), *bench.board, *link};
+  CHECK(successor.truth().x_m == Approx(last.x_m));
+  CHECK(successor.truth().y_m == Approx(last.y_m));
+  CHECK(successor.truth().heading_rad == Approx(last.heading_rad));
+}
+
 }  // namespace
 }  // namespace lodesman
