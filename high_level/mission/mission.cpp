@@ -63,6 +63,12 @@ void Mission::start(Time now) noexcept {
   make_for(0);
 }
 
+void Mission::hold(const WorldPoint& position) noexcept {
+  status_.state = MissionState::kHolding;
+  status_.goal_x_m = position.xy_m.x();
+  status_.goal_y_m = position.xy_m.y();
+}
+
 void Mission::abort(std::uint64_t count) noexcept {
   status_.state = MissionState::kAborted;
   status_.aborts = std::max(status_.aborts, count);
@@ -85,8 +91,7 @@ OrderAnswer Mission::obey(const GivenOrder& given, const WorldPoint& position, T
   } else if (given.command.order == OperatorOrder::kResume) {
     make_for(status_.goal_index);
   } else {
-    status_.goal_x_m = position.xy_m.x();
-    status_.goal_y_m = position.xy_m.y();
+    hold(position);
   }
   return OrderAnswer::kObeyed;
 }

@@ -55,6 +55,8 @@ class Mission {
   bool inherit(const MissionStatus& before, std::uint64_t aborts) noexcept;
   // From the first goal on, whatever it was doing.
   void start(Time now) noexcept;
+  // Stays at `position`, the vehicle's own, until it is told otherwise.
+  void hold(const WorldPoint& position) noexcept;
   // Progress by the estimated position, which the mission itself takes for true.
   void advance(const WorldPoint& position, Time now) noexcept;
 

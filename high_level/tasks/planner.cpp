@@ -65,6 +65,7 @@ void PlannerTask::step(Time now) noexcept {
     poses_.add(state->value);
     position_ = {{state->value.x_m, state->value.y_m}};
   }
+  hold_after_absence(now, state != nullptr);
   take_orders(now, state != nullptr);
   if (state != nullptr) {
     mission_.advance(position_, now);
@@ -78,6 +79,16 @@ void PlannerTask::step(Time now) noexcept {
   status.no_way = no_way_;
   status.no_way_since = no_way_ == NoWayCause::kNone ? Time{} : progress_.since();
   statuses_.publish(status, now);
+}
+
+void PlannerTask::hold_after_absence(Time now, bool estimate_is_fresh) noexcept {
+  const bool absent = stepped_ != Time{} && now - stepped_ > kLongestAbsence;
+  stepped_ = now;
+  was_absent_ = (was_absent_ || absent) && mission_.under_way();
+  if (was_absent_ && estimate_is_fresh) {
+    was_absent_ = false;
+    mission_.hold(position_);
+  }
 }
 
 void PlannerTask::take_orders(Time now, bool estimate_is_fresh) noexcept {
@@ -94,6 +105,7 @@ void PlannerTask::take_orders(Time now, bool estimate_is_fresh) noexcept {
     mission_.start(now);
   }
   if (mission_.status().started != started) {
+    was_absent_ = false;
     replanner_.start(now);
     progress_.start(now);
   }

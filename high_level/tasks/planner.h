@@ -19,6 +19,10 @@ struct PlannerOptions {
 
 class PlannerTask final : public Task {
  public:
+  // Not stepped for longer than this, because its process was frozen, it does not sail on: it holds
+  // until it is told to resume, as whoever stood by has long given it up (ADR 0017).
+  static constexpr Duration kLongestAbsence = std::chrono::seconds{5};
+
   PlannerTask(Blackboard& board, Role role, PlannerOptions options);
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override {
@@ -27,6 +31,7 @@ class PlannerTask final : public Task {
   }
 
  private:
+  void hold_after_absence(Time now, bool estimate_is_fresh) noexcept;
   void take_orders(Time now, bool estimate_is_fresh) noexcept;
   void replan(Time now) noexcept;
   void replan_in_view(Time now) noexcept;
@@ -45,6 +50,8 @@ class PlannerTask final : public Task {
   ProgressWatch progress_;
   NoWayCause no_way_ = NoWayCause::kNone;
   WorldPoint position_;  // the last known
+  Time stepped_{};
+  bool was_absent_ = false;  // under way, and its place is not known again yet
   Reader<OperatorCommand> orders_;
   Reader<VehicleState> vehicle_state_;
   Reader<SonarObstacles> obstacles_;

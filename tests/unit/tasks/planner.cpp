@@ -74,6 +74,43 @@ TEST_CASE("planner task: it starts by itself once there is a fresh estimate",
   CHECK(planner.after_step(kStart + seconds{1}) == MissionState::kUnderWay);
 }
 
+TEST_CASE("planner task: after a long absence it holds where it is and waits to be told",
+          "[high_level][tasks]") {
+  Planner planner;
+  planner.estimate(0.0, kStart);
+  planner.order(OperatorOrder::kStart, kStart);
+  REQUIRE(planner.after_step(kStart) == MissionState::kUnderWay);
+  Time now = kStart + PlannerTask::kLongestAbsence;
+  planner.estimate(1.0, now);
+  CHECK(planner.after_step(now) == MissionState::kUnderWay);  // not yet
+  now += PlannerTask::kLongestAbsence + Duration{1};
+  // It is held where the boat is, and so only once that is known again.
+  CHECK(planner.after_step(now) == MissionState::kUnderWay);
+  now += milliseconds{50};
+  planner.estimate(3.0, now);
+  CHECK(planner.after_step(now) == MissionState::kHolding);
+  CHECK(planner.statuses.latest()->value.goal_y_m == Approx(3.0));
+  now += milliseconds{50};
+  planner.estimate(3.0, now);
+  planner.order(OperatorOrder::kResume, now);
+  CHECK(planner.after_step(now) == MissionState::kUnderWay);
+}
+
+TEST_CASE("planner task: a start or an abort after a long absence is obeyed",
+          "[high_level][tasks]") {
+  for (const auto& [order, state] : {std::pair{OperatorOrder::kStart, MissionState::kUnderWay},
+                                     std::pair{OperatorOrder::kAbort, MissionState::kAborted}}) {
+    Planner planner;
+    planner.estimate(0.0, kStart);
+    planner.order(OperatorOrder::kStart, kStart);
+    REQUIRE(planner.after_step(kStart) == MissionState::kUnderWay);
+    const Time now = kStart + 2 * PlannerTask::kLongestAbsence;
+    planner.estimate(0.0, now);
+    planner.order(order, now);
+    CHECK(planner.after_step(now) == state);
+  }
+}
+
 TEST_CASE("planner task: it starts and aborts as it is told and stays aborted",
           "[high_level][tasks]") {
   Planner planner;
