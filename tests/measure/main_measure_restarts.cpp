@@ -64,14 +64,21 @@ class Propellers {
   [[nodiscard]] double timed_out_after_s(Time event) {
     return to_seconds(await_first(thrust_).stamp + kBoxTimeOut - event);
   }
-  // What the next world, or the same one thawed, begins with.
-  void require_still_next() {
-    const std::uint64_t seen = truth_.newest_sequence();
+  // The last word of a world that is dead or frozen.
+  [[nodiscard]] std::uint64_t last_seen() {
     while (truth_.next() != nullptr) {
     }
+    return truth_.newest_sequence();
+  }
+  // What the next world, or the same one thawed, begins with.
+  void require_still_after(std::uint64_t seen) {
     const Stamped<WorldTruth>* next = nullptr;
-    require(eventually([&] { return (next = truth_.next()) != nullptr; }), "no world comes back");
-    require(next->sequence > seen && is_neutral(next->value.thrust_left, next->value.thrust_right),
+    require(eventually([&] {
+              next = truth_.next();
+              return next != nullptr && next->sequence > seen;
+            }),
+            "no world comes back");
+    require(is_neutral(next->value.thrust_left, next->value.thrust_right),
             "the propellers still turn");
   }
 
@@ -191,8 +198,10 @@ void Campaign::low() {
     const Time event = clock.now();
     kill_now(*boat.low);
     table_.add(propellers.timed_out_after_s(event));
+    std::this_thread::sleep_for(kBoxTimeOut + milliseconds{20});
+    const std::uint64_t seen = propellers.last_seen();
     boat.start_low();
-    propellers.require_still_next();
+    propellers.require_still_after(seen);
   }
   table_.begin("lodesman-low frozen", "the box's own time-out", to_seconds(kBoxTimeOut));
   for (int i = 0; i < times_; ++i) {
@@ -202,8 +211,9 @@ void Campaign::low() {
     signal(boat.low->pid(), SIGSTOP);
     std::this_thread::sleep_for(kBoxTimeOut + milliseconds{20});
     table_.add(propellers.timed_out_after_s(event));
+    const std::uint64_t seen = propellers.last_seen();
     signal(boat.low->pid(), SIGCONT);
-    propellers.require_still_next();
+    propellers.require_still_after(seen);
   }
   require(!boat.high->ended(), "lodesman-high did not outlive its low level");
 }

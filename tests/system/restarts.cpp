@@ -133,15 +133,8 @@ TEST_CASE("restarts: a high level without a segment says not yet, and heeds a st
 TEST_CASE("restarts: closed standard streams are no way into the segment", "[system]") {
   const Scratch scratch{"streams"};
   Boat boat{scratch};
-  boat.high.reset();
-  REQUIRE(eventually([&] { return fs::exists("/dev/shm/" + boat.segment); }));
-  REQUIRE(eventually([&] {
-    try {
-      return SharedBlackboard::observe(boat.segment, Duration::zero()).alive(Role::kLow);
-    } catch (const StartupError&) {
-      return false;
-    }
-  }));
+  const auto board = SharedBlackboard::observe(boat.segment, kPatience);
+  REQUIRE(eventually([&] { return board.alive(Role::kHigh); }));
   REQUIRE(kill(boat.low->pid(), SIGKILL) == 0);
   REQUIRE(eventually([&] { return boat.low->ended().has_value(); }));
   // What it finds there it says, on standard error.
@@ -150,7 +143,6 @@ TEST_CASE("restarts: closed standard streams are no way into the segment", "[sys
                   close(stream);
                 }
               }};
-  const auto board = SharedBlackboard::observe(boat.segment, kPatience);
   Reader<ThrustApplied> thrust{board->thrust_applied};
   const std::uint64_t before = thrust.newest_sequence();
   REQUIRE(eventually([&] { return thrust.newest_sequence() > before + 5; }));
