@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "deploy/cli/run/log.h"
@@ -130,18 +131,37 @@ class LowLevelWatch {
   bool alive_ = true;
 };
 
+// The threads of the tasks, and who notices when one of them hangs.
+struct RunningTasks {
+  RunningTasks(std::span<const TaskEntry> tasks, SharedBlackboard& board)
+      : health{*board, tasks, SteadyClock{}.now()},
+        runner{tasks, board.writable(), Role::kHigh, cli::end_without} {}
+
+  HealthWatch health;
+  RealtimeRunner runner;
+};
+
 // Runs the high level on one segment until a stop is asked for or a new low level has made another.
 void sail(SharedBlackboard& board, const HighLevelOptions& options,
           const cli::CommandSocketSettings& settings) {
   HighLevel high{board.writable(), Role::kHigh, options};
   const WayIn way_in{board.writable(), settings};
   const auto tasks = high.tasks();
-  HealthWatch health{*board, tasks, SteadyClock{}.now()};
-  const RealtimeRunner runner{tasks, board.writable(), Role::kHigh, cli::end_without};
+  // Stopped, its tasks leave all safe; they go on where they stood.
+  std::optional<RunningTasks> running;
+  running.emplace(tasks, board);
   LowLevelWatch low{board};
   cli::wait_for_stop([&] {
     low.look();
-    cli::say_what_hangs(health);
+    if (const bool silent = cli::launcher_is_silent(); silent && running) {
+      running.reset();
+      spdlog::warn("the launcher has fallen silent: neutral until it is heard again");
+    } else if (!silent && !running) {
+      running.emplace(tasks, board);
+    }
+    if (running) {
+      cli::say_what_hangs(running->health);
+    }
     return board.is_superseded();
   });
 }

@@ -203,3 +203,25 @@ TEST_CASE("launcher: a low level that has fallen silent ends the run at its time
   CHECK(result_of(out)["fault"] == "lodesman-low has fallen silent");
   CHECK_FALSE(any_segment_of(launcher.pid()));
 }
+
+TEST_CASE("launcher: while it is frozen the boat is neutral, and sails on once it thaws",
+          "[system]") {
+  const Scratch scratch{"frozen"};
+  const auto scenario = scratch.file("far.toml", scenario_text(25.0));
+  Program launcher{program("lodesman"), sim(scenario, scratch.file("run"), {"--quiet"})};
+  const auto board = under_way(launcher);
+  Reader<ThrustApplied> thrust{board->thrust_applied};
+  for (int round = 0; round < 2; ++round) {
+    REQUIRE(eventually([&] { return drives(thrust.latest()); }));
+    REQUIRE(kill(launcher.pid(), SIGSTOP) == 0);
+    // How soon is measured by measure_restarts.
+    CHECK(eventually([&] {
+      const auto* applied = thrust.latest();
+      return applied->value.left == 128 && applied->value.right == 128;
+    }));
+    CHECK(board.alive(Role::kLow));
+    CHECK(board.alive(Role::kHigh));
+    REQUIRE(kill(launcher.pid(), SIGCONT) == 0);
+  }
+  CHECK(eventually([&] { return drives(thrust.latest()); }));
+}

@@ -76,6 +76,7 @@ ChildProcess::ChildProcess(const std::string& program, const std::vector<std::st
   const int error_number = errno;
   close(pipe_ends[0]);
   life_line_ = pipe_ends[1];
+  fcntl(life_line_, F_SETFL, O_NONBLOCK);
   if (pid_ < 0) {
     close(life_line_);
     errno = error_number;
@@ -101,6 +102,11 @@ const std::optional<std::string>& ChildProcess::ended() {
     ended_ = "unseen";
   }
   return ended_;
+}
+
+void ChildProcess::beat() const noexcept {
+  // What cannot be written is a beat that the child does not hear: that is all there is to it.
+  static_cast<void>(!write(life_line_, "", 1));
 }
 
 void ChildProcess::stop(Duration patience) {

@@ -31,6 +31,9 @@ class ChildProcess {
   [[nodiscard]] const std::optional<std::string>& ended();
   // Empty while it runs, and where it did not exit by itself.
   [[nodiscard]] std::optional<int> exit_status() const noexcept { return exit_status_; }
+  // One beat down its standard input, for a child that is to notice when this process falls silent.
+  // Any thread, as long as this object lives; never waits, whatever the child does.
+  void beat() const noexcept;
   // Asks it to end, and kills it when it has not after `patience`.
   void stop(Duration patience);
 

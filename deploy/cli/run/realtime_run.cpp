@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "deploy/cli/run/child_process.h"
+#include "deploy/cli/run/stop_signals.h"
 #include "mid_level/base/clock.h"
 #include "mid_level/base/stopwatch.h"
 #include "mid_level/blackboard/segment.h"
@@ -37,10 +38,14 @@ class TwoProcesses {
       high.push_back("--start");
     }
     high_ = std::make_unique<ChildProcess>("lodesman-high", high);
+    pulse_ = std::jthread{[this](const std::stop_token& stop) { beat(stop); }};
   }
   TwoProcesses(const TwoProcesses&) = delete;
   TwoProcesses& operator=(const TwoProcesses&) = delete;
-  ~TwoProcesses() { stop(); }
+  ~TwoProcesses() {
+    stop();
+    pulse_ = {};
+  }
 
   [[nodiscard]] const std::string& segment() const noexcept { return segment_; }
 
@@ -65,9 +70,19 @@ class TwoProcesses {
   }
 
  private:
+  // On a thread of its own, so that nothing that this program waits for stops the boat.
+  void beat(const std::stop_token& stop) const {
+    while (!stop.stop_requested()) {
+      low_->beat();
+      high_->beat();
+      std::this_thread::sleep_for(kPulsePeriod);
+    }
+  }
+
   std::string segment_;
   std::unique_ptr<ChildProcess> low_;
   std::unique_ptr<ChildProcess> high_;
+  std::jthread pulse_;
 };
 
 // Waits for the segment as long as both processes live; without one `fault` says why, unless it

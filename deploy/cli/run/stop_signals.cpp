@@ -8,12 +8,16 @@
 #include <array>
 #include <csignal>
 
+#include "mid_level/base/clock.h"
+
 namespace lodesman::cli {
 namespace {
 
-constexpr int kGiveUpPeriod_ms = 100;
+constexpr int kGiveUpPeriod_ms = 25;
+constexpr Duration kLongestSilence = std::chrono::milliseconds{250};
 
 bool g_stop_with_input = false;
+Time g_last_beat{};  // none yet
 volatile std::sig_atomic_t g_stop_caught = 0;
 
 void set_handler(int signal, void (*handler)(int)) noexcept {
@@ -51,13 +55,23 @@ void handle_stop_signals(void (*handler)(int)) noexcept {
   }
 }
 
+// Takes the launcher's beats; false at their end.
+[[nodiscard]] bool take_beats() noexcept {
+  std::array<char, 4096> beats;
+  const ssize_t taken = read(STDIN_FILENO, beats.data(), beats.size());
+  if (taken > 0) {
+    g_last_beat = SteadyClock{}.now();
+  }
+  return taken > 0;
+}
+
 // A blocked signal that has come stays pending, so this goes on being true.
 [[nodiscard]] bool stop_asked_within(int milliseconds) noexcept {
   static const int kSignalsFile = signalfd(-1, &stop_signals(), SFD_CLOEXEC | SFD_NONBLOCK);
   std::array<pollfd, 2> watched{
-      {{kSignalsFile, POLLIN, 0}, {g_stop_with_input ? STDIN_FILENO : -1, 0, 0}}};
+      {{kSignalsFile, POLLIN, 0}, {g_stop_with_input ? STDIN_FILENO : -1, POLLIN, 0}}};
   poll(watched.data(), watched.size(), milliseconds);
-  if (watched[1].revents != 0) {
+  if (watched[1].revents != 0 && !((watched[1].revents & POLLIN) != 0 && take_beats())) {
     return true;
   }
   sigset_t pending;
@@ -84,6 +98,10 @@ void block_stop_signals() noexcept {
 }
 
 void stop_with_standard_input() noexcept { g_stop_with_input = true; }
+
+bool launcher_is_silent() noexcept {
+  return g_last_beat != Time{} && SteadyClock{}.now() - g_last_beat > kLongestSilence;
+}
 
 bool stop_asked() noexcept { return stop_asked_within(0); }
 
