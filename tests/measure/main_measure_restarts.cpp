@@ -5,6 +5,7 @@
 //   measure_restarts [TIMES [UNCLEAN_RESTARTS]]
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <random>
 
@@ -34,8 +35,12 @@ class Propellers {
   explicit Propellers(const SharedBlackboard& board)
       : truth_{board->world_truth}, thrust_{board->thrust_applied} {}
 
-  void await_drive() {
-    require(eventually([&] { return is_ahead(truth_.latest()); }), "the boat does not sail");
+  void await_drive(Time since = Time{}) {
+    require(eventually([&] {
+              const auto* truth = truth_.latest();
+              return is_ahead(truth) && truth->stamp > since;
+            }),
+            "the boat does not sail");
   }
   // How long after `event` they stand still: as the world feels it, or, where the world ends first,
   // as the box was told.
@@ -300,7 +305,7 @@ void Campaign::unclean_restarts() {
       return std::move(
           *std::find_if(started.begin(), started.end(), [](auto& one) { return !one->ended(); }));
     };
-    propellers.await_drive();
+    propellers.await_drive(event);
     table_.add(to_seconds(clock.now() - event));
     boat.low = leave_one(lows);
     boat.high = leave_one(highs);
