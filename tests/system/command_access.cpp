@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "high_level/mission/token_file.h"
+#include "tests/support/catch.h"
 #include "tests/support/command_crowd.h"
 #include "tests/system/boat.h"
 #include "tests/system/listening_port.h"

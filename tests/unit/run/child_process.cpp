@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "mid_level/base/startup_error.h"
+#include "tests/support/catch.h"
 #include "tests/system/boat.h"
 
 using namespace lodesman;
