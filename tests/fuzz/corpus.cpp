@@ -17,8 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMutations = 500;  // of each seed
-
 const fs::path kTree = LODESMAN_SOURCE_DIR;
 
 [[nodiscard]] std::vector<fs::path> files_of(const fs::path& directory) {
@@ -65,7 +63,7 @@ void run_all(std::string_view name) {
     const std::string file = files[i].filename().string();
     run(*target, seeds[i], file);
     std::mt19937_64 chance{i};
-    for (std::size_t n = 0; n < kMutations; ++n) {
+    for (std::size_t n = 0; n < target->mutations; ++n) {
       run(*target, mutated(seeds[i], seeds, chance), file + ", mutation " + std::to_string(n));
     }
   }
@@ -77,6 +75,7 @@ TEST_CASE("fuzz corpus: frames of plan", "[fuzz]") { run_all("frames"); }
 TEST_CASE("fuzz corpus: images of segment", "[fuzz]") { run_all("image"); }
 TEST_CASE("fuzz corpus: maps of plan", "[fuzz]") { run_all("map"); }
 TEST_CASE("fuzz corpus: queries on a map", "[fuzz]") { run_all("map_queries"); }
+TEST_CASE("fuzz corpus: messages in shared memory", "[fuzz]") { run_all("message"); }
 TEST_CASE("fuzz corpus: scenarios", "[fuzz]") { run_all("scenario"); }
 TEST_CASE("fuzz corpus: segment headers", "[fuzz]") { run_all("segment_header"); }
 TEST_CASE("fuzz corpus: settings of the command line", "[fuzz]") { run_all("setting"); }

@@ -13,6 +13,7 @@ std::span<const Target> targets() {
       Target{"image", image, ""},
       Target{"map", map, ""},
       Target{"map_queries", map_queries, ""},
+      Target{"message", message, "", 40},
       Target{"scenario", scenario, "hal_sim/scenarios"},
       Target{"segment_header", segment_header, ""},
       Target{"setting", setting, ""},

@@ -14,6 +14,7 @@ void frames(std::string_view input);          // lodesman plan --frames
 void image(std::string_view input);           // an image of lodesman segment
 void map(std::string_view input);             // lodesman plan --map
 void map_queries(std::string_view input);     // lodesman plan --scen
+void message(std::string_view input);         // changes to a message in shared memory
 void scenario(std::string_view input);        // a scenario file
 void segment_header(std::string_view input);  // changes to a good header of shared memory
 void setting(std::string_view input);         // one --set
@@ -21,7 +22,8 @@ void setting(std::string_view input);         // one --set
 struct Target {
   std::string_view name;  // of its folder in the corpus too
   void (*run)(std::string_view input);
-  std::string_view shipped;  // a directory of the tree whose files are seeds too; or empty
+  std::string_view shipped;     // a directory of the tree whose files are seeds too; or empty
+  std::size_t mutations = 500;  // of each seed, in every build; fewer where a run builds a boat
 };
 
 [[nodiscard]] std::span<const Target> targets();

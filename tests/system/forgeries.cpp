@@ -13,7 +13,7 @@
 #include "mid_level/recording/recording_hash.h"
 #include "mid_level/runtime/run_lockstep.h"
 #include "tests/support/catch.h"
-#include "tests/system/forgery.h"
+#include "tests/support/forgery.h"
 
 using namespace lodesman;
 using namespace lodesman::testing;
