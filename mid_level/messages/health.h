@@ -17,6 +17,7 @@ struct TaskHealth {
 
   std::uint64_t steps = 0;          // [-] done so far
   std::uint64_t overruns = 0;       // [-] periods missed so far, and skipped
+  std::uint64_t refused = 0;        // [-] inputs passed over so far because they were not sane
   std::uint64_t last_step_ns = 0;   // [ns] of the last step, measured
   std::uint64_t worst_step_ns = 0;  // [ns] of the longest step, measured
   std::uint64_t worst_late_ns = 0;  // [ns] from when a step was due to when it began, measured
@@ -29,6 +30,7 @@ struct TaskHealth {
     using T = TaskHealth;
     return std::tuple{field("steps", &T::steps),
                       field("overruns", &T::overruns),
+                      field("refused", &T::refused),
                       measured_field("last_step_ns", &T::last_step_ns),
                       measured_field("worst_step_ns", &T::worst_step_ns),
                       measured_field("worst_late_ns", &T::worst_late_ns),

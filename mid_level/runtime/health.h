@@ -43,6 +43,7 @@ struct StepTimes {
   Duration late{};  // from when it was due
   Duration took{};
   std::uint64_t missed_periods = 0;
+  std::uint64_t refused = 0;  // Task::refused() after it
 };
 
 class HealthKeeper {
@@ -57,6 +58,7 @@ class HealthKeeper {
   void stepped(const StepTimes& step) noexcept {
     ++health_.steps;
     health_.overruns += step.missed_periods;
+    health_.refused = step.refused;
     health_.last_step_ns = nanoseconds(step.took);
     health_.worst_step_ns = std::max(health_.worst_step_ns, health_.last_step_ns);
     health_.worst_late_ns = std::max(health_.worst_late_ns, nanoseconds(step.late));

@@ -33,7 +33,7 @@ void LockstepRunner::step() noexcept {
   clock_.advance_to(std::max(entry.due, clock_.now()));
   const Stopwatch stopwatch;
   entry.task.task->step(clock_.now());
-  entry.health.stepped({clock_.now(), {}, stopwatch.elapsed(), 0});
+  entry.health.stepped({clock_.now(), {}, stopwatch.elapsed(), 0, entry.task.task->refused()});
   entry.nominal += entry.task.spec.period;
   entry.due = with_jitter(entry.nominal);
 }

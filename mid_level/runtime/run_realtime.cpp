@@ -67,7 +67,8 @@ struct RealtimeRunner::Worker {
       const Time ended = clock.now();
       const Time next = next_due(entry.spec, ended);
       const auto missed = (next - due) / entry.spec.period - 1;  // 0 when it kept its period
-      health.stepped({began, began - due, ended - began, static_cast<std::uint64_t>(missed)});
+      health.stepped({began, began - due, ended - began, static_cast<std::uint64_t>(missed),
+                      entry.task->refused()});
       due = next;
     }
     entry.task->enter_safe_state(clock.now());

@@ -76,7 +76,8 @@ constexpr const char* kPlain = "\x1b[0m";
           {"max_age_s", row.max_age_s > 0.0 ? Json(row.max_age_s) : Json(nullptr)},
           {"stale", row.stale},
           {"publications", row.publications},
-          {"missed", row.missed}};
+          {"missed", row.missed},
+          {"refused", row.refused}};
 }
 
 [[nodiscard]] Json json_of(const TaskRow& row) {
@@ -88,6 +89,7 @@ constexpr const char* kPlain = "\x1b[0m";
           {"period_s", row.period_s},
           {"steps", count(&TaskHealth::steps)},
           {"overruns", count(&TaskHealth::overruns)},
+          {"refused", count(&TaskHealth::refused)},
           {"last_step_ns", count(&TaskHealth::last_step_ns)},
           {"worst_step_ns", count(&TaskHealth::worst_step_ns)},
           {"worst_late_ns", count(&TaskHealth::worst_late_ns)},
@@ -95,6 +97,15 @@ constexpr const char* kPlain = "\x1b[0m";
           {"fifo_priority", count(&TaskHealth::fifo_priority)},
           {"age_s", number_or_null(row.age_s)},
           {"silent", row.silent}};
+}
+
+// A line of its own where anything was: that is never as it should be.
+void add_refused(std::vector<std::string>& lines, const char* name, std::uint64_t refused,
+                 const char* what, bool colour) {
+  if (refused > 0) {
+    lines.push_back(marked(
+        fmt::format("{}: {} {} were not sane and passed over", name, refused, what), true, colour));
+  }
 }
 
 }  // namespace
@@ -109,12 +120,14 @@ std::vector<std::string> table_lines(const SegmentState& state, bool colour) {
                               "Hz", "age s", "limit", "published", "missed"));
   for (const ChannelRow& row : state.board.channels) {
     lines.push_back(marked(line_of(row), row.stale, colour));
+    add_refused(lines, row.name, row.refused, "publications", colour);
   }
   lines.push_back(fmt::format("  {:<12} {:<4} {:>4} {:>4} {:>10} {:>8} {:>10} {:>9} {:>9}", "task",
                               "in", "ms", "FIFO", "steps", "overruns", "longest us", "late 99 %",
                               "latest us"));
   for (const TaskRow& row : state.board.tasks) {
     lines.push_back(marked(line_of(row), row.silent, colour));
+    add_refused(lines, row.name, row.health ? row.health->refused : 0, "inputs", colour);
   }
   return lines;
 }

@@ -26,9 +26,11 @@ BoardWatch::BoardWatch(const Blackboard& board) {
                                seen.stamp = newest->stamp;
                              }
                              seen.missed = reader->missed();
+                             seen.refused = reader->refused();
                            },
                            0,
                            {},
+                           0,
                            0,
                            {}});
     }
@@ -70,6 +72,7 @@ ChannelRow BoardWatch::row_of(const ChannelSeen& seen) const {
   row.max_age_s = to_seconds(seen.info.max_age);
   row.publications = seen.sequence;
   row.missed = seen.missed;
+  row.refused = seen.refused;
   if (seen.looks.size() > 1 && seen.looks.back().at > seen.looks.front().at) {
     const auto& [from, first] = seen.looks.front();
     const auto& [to, last] = seen.looks.back();

@@ -25,6 +25,7 @@ struct ChannelRow {
   bool stale = false;              // its readers act as if its writer were dead
   std::uint64_t publications = 0;  // since the segment was made
   std::uint64_t missed = 0;        // overwritten before they were looked at
+  std::uint64_t refused = 0;       // passed over because they were not sane
 };
 
 struct TaskRow {
@@ -67,6 +68,7 @@ class BoardWatch {
     std::uint64_t sequence = 0;
     Time stamp{};
     std::uint64_t missed = 0;
+    std::uint64_t refused = 0;
     std::deque<Look> looks;
   };
   struct TaskSeen {

@@ -115,18 +115,30 @@ TEST_CASE("watch: a task tells of its steps until it falls silent", "[cli]") {
   }));
 }
 
+TEST_CASE("watch: what is not sane is counted", "[cli]") {
+  Boat boat;
+  BoardWatch watch{*boat.board};
+  Attitude nonsense;
+  nonsense.heading_rad = 1e300;
+  boat.attitude.publish({}, kStart);
+  boat.attitude.publish(nonsense, kStart);
+  watch.poll(kStart);
+  REQUIRE(channel(watch, "attitude").refused == 1);
+  REQUIRE(channel(watch, "attitude").publications == 1);
+}
+
 TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
   Boat boat;
   BoardWatch watch{*boat.board};
   boat.attitude.publish({}, kStart);
-  TaskHealth health{1234, 5, 6'000, 70'000, 800'000, 60};
+  TaskHealth health{1234, 5, 7, 6'000, 70'000, 800'000, 60};
   health.late[6] = 1233;
   health.late[10] = 1;
   boat.health.publish(health, kStart);
   watch.poll(kStart);
   const SegmentState state{"lodesman-x", true, false, watch.state()};
   const auto lines = table_lines(state, false);
-  REQUIRE(lines.size() == 3 + 14 + kTaskCount);
+  REQUIRE(lines.size() == 3 + 14 + kTaskCount + 1);
   REQUIRE(lines[0] == "! lodesman-x: lodesman-low alive, lodesman-high GONE");
   std::string all;
   for (const std::string& line : lines) {
@@ -140,6 +152,7 @@ TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
       all.find(
           "\n  ahrs         low    20   60       1234        5       70.0      64.0     800.0\n") !=
       std::string::npos);
+  REQUIRE(all.find("\n! ahrs: 7 inputs were not sane and passed over\n") != std::string::npos);
   REQUIRE(all.find("\x1b") == std::string::npos);
   REQUIRE(table_lines(state, true)[0].starts_with("\x1b[31m! "));
 
@@ -151,6 +164,7 @@ TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
   REQUIRE(json.at("tasks").size() == kTaskCount);
   REQUIRE(json.at("tasks")[0].at("steps").is_null());
   REQUIRE(json.at("tasks")[1].at("fifo_priority") == 60);
+  REQUIRE(json.at("tasks")[1].at("refused") == 7);
   REQUIRE(json.at("tasks")[1].at("late_p99_us") == Approx(64.0));
   REQUIRE(json.at("tasks")[1].at("worst_late_ns") == 800'000);
 }

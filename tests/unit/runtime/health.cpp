@@ -71,7 +71,7 @@ TEST_CASE("health: steps, the latest of them and missed periods are published on
   for (int i = 0; i <= 150; ++i) {
     const bool slow = i == 7;
     keeper.stepped({kStart + i * milliseconds{20}, slow ? milliseconds{3} : Duration{500},
-                    slow ? milliseconds{90} : milliseconds{1}, slow ? 4U : 0U});
+                    slow ? milliseconds{90} : milliseconds{1}, slow ? 4U : 0U, 3});
   }
   const auto* newest = reader.latest();
   REQUIRE(newest != nullptr);
@@ -79,6 +79,7 @@ TEST_CASE("health: steps, the latest of them and missed periods are published on
   CHECK(newest->stamp == kStart + seconds{3});
   CHECK(newest->value.steps == 151);
   CHECK(newest->value.overruns == 4);
+  CHECK(newest->value.refused == 3);
   CHECK(newest->value.last_step_ns == 1'000'000);
   CHECK(newest->value.worst_step_ns == 90'000'000);
   CHECK(newest->value.worst_late_ns == 3'000'000);

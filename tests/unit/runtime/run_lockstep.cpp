@@ -89,7 +89,7 @@ TEST_CASE("recording hash: any published value, stamp or order changes it, wall 
     const auto path = std::make_unique<SonarPath>();
     path->plan_time_ns = wall_time;
     paths.publish(*path, Time{Duration{stamp}});
-    TaskHealth measured{1, 0, wall_time, wall_time, wall_time, wall_time};
+    TaskHealth measured{1, 0, 0, wall_time, wall_time, wall_time, wall_time};
     measured.late[wall_time] = 1;
     health.publish(measured, Time{Duration{stamp}});
     hash.update();
