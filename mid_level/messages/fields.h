@@ -31,8 +31,8 @@ struct Bounds {
 
 template <class M, class T>
 struct Field {
-  const char* name;
-  T M::*member;
+  const char* name = nullptr;
+  T M::*member = nullptr;
   Bounds bounds{};
 
   [[nodiscard]] constexpr Field within(double least, double most) const noexcept {
