@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "mid_level/recording/recording_hash.h"
+#include "tests/support/catch.h"
 #include "tests/support/forgery.h"
 #include "tests/system/boat.h"
 
