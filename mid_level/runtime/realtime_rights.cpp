@@ -4,6 +4,7 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -65,11 +66,28 @@ std::string refused_priorities(int granted) {
          ")";
 }
 
-std::string set_up_realtime() {
-  std::string missing;
-  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
-    missing = "memory cannot be locked (" + std::generic_category().message(errno) + ")";
+namespace {
+
+// Locks what there is and what will be; gives why it cannot. Under a limit even a lock that is
+// granted is none to keep: once it is met, no more memory is to be had at all.
+[[nodiscard]] std::string lock_memory() {
+  rlimit limit{};
+  const bool limited =
+      geteuid() != 0 && getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  if (limited) {
+    return "memory cannot be locked (RLIMIT_MEMLOCK is " + std::to_string(limit.rlim_cur / 1024) +
+           " KiB, not unlimited)";
   }
+  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
+    return "memory cannot be locked (" + std::generic_category().message(errno) + ")";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string set_up_realtime() {
+  std::string missing = lock_memory();
   const std::string refused = refused_priorities(hold_fifo_priority(kHighestPriority));
   schedule(SCHED_OTHER, 0);
   if (!refused.empty()) {
