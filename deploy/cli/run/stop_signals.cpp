@@ -57,7 +57,7 @@ void handle_stop_signals(void (*handler)(int)) noexcept {
 
 // Takes the launcher's beats; false at their end.
 [[nodiscard]] bool take_beats() noexcept {
-  std::array<char, 4096> beats;
+  std::array<char, 4096> beats{};
   const ssize_t taken = read(STDIN_FILENO, beats.data(), beats.size());
   if (taken > 0) {
     g_last_beat = SteadyClock{}.now();
