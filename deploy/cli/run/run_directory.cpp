@@ -109,7 +109,7 @@ fs::path make_new_directory(const fs::path& name) {
 
 fs::path make_named_directory(const fs::path& name, bool force) {
   // "run/" names the same as "run".
-  const fs::path directory = name.has_filename() ? name : name.parent_path();
+  fs::path directory = name.has_filename() ? name : name.parent_path();
   make_parents(directory);
   if (make_exclusively(directory)) {
     return directory;
