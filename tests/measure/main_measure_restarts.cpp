@@ -4,6 +4,7 @@
 // anything is left or has two owners. Prints a table; status 1 where a bound is broken.
 //   measure_restarts [TIMES [UNCLEAN_RESTARTS]]
 #include <fmt/format.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -19,8 +20,6 @@ namespace {
 using namespace lodesman::testing;
 
 constexpr double kStop_s = 0.5;
-// A signal takes a moment to arrive, and a command may come before it does.
-constexpr double kBoxStop_s = to_seconds(kBoxTimeOut) + 0.005;
 
 void require(bool holds, const std::string& what) {
   if (!holds) {
@@ -198,24 +197,27 @@ void Campaign::low() {
   const auto board = SharedBlackboard::observe(boat.segment, kPatience);
   Propellers propellers{board};
   const SteadyClock clock;
-  table_.begin("lodesman-low killed", "the box's own time-out", kBoxStop_s);
+  table_.begin("lodesman-low killed", "the box's own time-out", to_seconds(kBoxTimeOut));
   for (int i = 0; i < times_; ++i) {
     propellers.await_drive();
     wait_a_random_while();
-    const Time event = clock.now();
     kill_now(*boat.low);
+    const Time event = clock.now();  // a command may still come before the signal does
     table_.add(propellers.timed_out_after_s(event));
     std::this_thread::sleep_for(kBoxTimeOut + milliseconds{20});
     const std::uint64_t seen = propellers.last_seen();
     boat.start_low();
     propellers.require_still_after(seen);
   }
-  table_.begin("lodesman-low frozen", "the box's own time-out", kBoxStop_s);
+  table_.begin("lodesman-low frozen", "the box's own time-out", to_seconds(kBoxTimeOut));
   for (int i = 0; i < times_; ++i) {
     propellers.await_drive();
     wait_a_random_while();
-    const Time event = clock.now();
     signal(boat.low->pid(), SIGSTOP);
+    siginfo_t stopped{};
+    require(waitid(P_PID, static_cast<id_t>(boat.low->pid()), &stopped, WSTOPPED) == 0,
+            "lodesman-low is not stopped");
+    const Time event = clock.now();
     std::this_thread::sleep_for(kBoxTimeOut + milliseconds{20});
     table_.add(propellers.timed_out_after_s(event));
     const std::uint64_t seen = propellers.last_seen();
