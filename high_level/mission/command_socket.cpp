@@ -27,6 +27,7 @@ constexpr int kAcceptsPerTurn = 64;     // before the sessions have their turn
 constexpr std::chrono::milliseconds kAnswerPeriod{5};
 constexpr std::chrono::milliseconds kIdleLookPeriod{100};
 constexpr std::chrono::milliseconds kAcceptPause{10};
+constexpr std::chrono::milliseconds kFarewellLimit{300};
 
 // In the order in which places are given up.
 enum class Standing { kStranger, kKnown, kAwaitsAnswer, kAwaitsAbort };
@@ -227,6 +228,28 @@ struct CommandSocket::Impl {
     }
   }
 
+  [[nodiscard]] bool somebody_awaits_an_answer() const {
+    return std::any_of(sessions.begin(), sessions.end(), [](const auto& session) {
+      return session->standing >= Standing::kAwaitsAnswer;
+    });
+  }
+
+  // An abort is often what ends the program: whoever gave it is told what came of it.
+  asio::awaitable<void> say_farewell() {
+    try {
+      acceptor.close();
+      const auto limit = asio::steady_timer::clock_type::now() + kFarewellLimit;
+      asio::steady_timer timer{context};
+      while (somebody_awaits_an_answer() && asio::steady_timer::clock_type::now() < limit) {
+        timer.expires_after(kAnswerPeriod);
+        co_await timer.async_wait(asio::use_awaitable);
+      }
+    } catch (const std::exception&) {
+      // Out of something: without a farewell, then.
+    }
+    context.stop();
+  }
+
   // Throws StartupError.
   void open() {
     error_code error;
@@ -289,7 +312,7 @@ CommandSocket::CommandSocket(const CommandSocketOptions& options, CommandHandler
 }
 
 CommandSocket::~CommandSocket() {
-  impl_->context.stop();
+  asio::co_spawn(impl_->context, impl_->say_farewell(), asio::detached);
   impl_->thread.join();
 }
 

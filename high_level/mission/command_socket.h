@@ -33,6 +33,7 @@ class CommandSocket {
   CommandSocket(const CommandSocketOptions& options, CommandHandler handler);
   CommandSocket(const CommandSocket&) = delete;
   CommandSocket& operator=(const CommandSocket&) = delete;
+  // Waits a moment for the answers that are still awaited.
   ~CommandSocket();
 
   [[nodiscard]] std::uint16_t port() const noexcept;

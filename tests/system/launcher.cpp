@@ -204,6 +204,19 @@ TEST_CASE("launcher: a low level that has fallen silent ends the run at its time
   CHECK_FALSE(any_segment_of(launcher.pid()));
 }
 
+TEST_CASE("launcher: a mission that never begins ends the run at its time limit too", "[system]") {
+  const Scratch scratch{"not-begun"};
+  const auto out = scratch.file("run");
+  Program launcher{program("lodesman"), sim(scratch.file("far.toml", scenario_text(25.0)), out,
+                                            {"--quiet", "--time-limit", "2"})};
+  pid_t high = 0;
+  REQUIRE(eventually([&] { return (high = child_of(launcher.pid(), "lodesman-high")) > 0; }));
+  REQUIRE(kill(high, SIGSTOP) == 0);
+  CHECK(launcher.status() == 4);
+  CHECK(result_of(out)["fault"] == "the mission has not begun");
+  CHECK_FALSE(any_segment_of(launcher.pid()));
+}
+
 TEST_CASE("launcher: while it is frozen the boat is neutral, and sails on once it thaws",
           "[system]") {
   const Scratch scratch{"frozen"};

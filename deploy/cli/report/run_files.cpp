@@ -133,6 +133,10 @@ std::string result_json(const RunResult& result) {
   json["plans_found"] = result.plans_found;
   json["plans_not_found"] = result.plans_not_found;
   json["plan_reasons"] = result.plan_reasons;
+  json["rungs"] = Json::object();
+  for (const auto& [rung, seconds] : result.rung_s) {
+    json["rungs"][rung] = metric(seconds);
+  }
   json["side_flips"] = result.side_flips;
   json["heading_travel_deg"] = metric(result.heading_travel_deg);
   json["plan_time_us"] = percentile_json(result.plan_time_us);

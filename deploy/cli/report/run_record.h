@@ -96,6 +96,7 @@ struct RunResult {
   std::uint64_t plans_found = 0;
   std::uint64_t plans_not_found = 0;
   std::map<std::string, std::uint64_t> plan_reasons;
+  std::map<std::string, double> rung_s;  // [s] under way by plans of each rung
   std::uint64_t side_flips = 0;
   std::optional<double> first_side_flip_s;  // not written
   double heading_travel_deg = 0.0;

@@ -114,7 +114,8 @@ class TwoProcesses {
                                 RunWatcher& watcher) {
   const SteadyClock clock;
   const double limit_s = run.scenario.time_limit_s;
-  Time next_show = clock.now();
+  const Time begun = clock.now();
+  Time next_show = begun;
   while (!watcher.mission_ended() && !run.interrupted()) {
     std::this_thread::sleep_for(kPollPeriod);
     watcher.poll();
@@ -127,8 +128,10 @@ class TwoProcesses {
       break;
     }
     const Time started = watcher.mission_started();
-    if (started != Time{} && to_seconds(clock.now() - started) > limit_s + kSilence_s) {
-      return "lodesman-low has fallen silent";
+    const bool sails = started != Time{};
+    if ((sails || !run.wait_start) &&
+        to_seconds(clock.now() - (sails ? started : begun)) > limit_s + kSilence_s) {
+      return sails ? "lodesman-low has fallen silent" : "the mission has not begun";
     }
     if (clock.now() >= next_show) {
       next_show = clock.now() + kShowPeriod;

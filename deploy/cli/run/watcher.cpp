@@ -142,6 +142,7 @@ void RunWatcher::take_plans() {
     ++(record.reason == PathReason::kFound ? record_.result.plans_found
                                            : record_.result.plans_not_found);
     ++record_.result.plan_reasons[to_string(record.reason)];
+    take_rung(record, plan->stamp);
     plan_times_us_.add(record.plan_time_us);
     const bool never_flipped = !side_flips_.flips().first_s;
     side_flips_.add(record);
@@ -150,6 +151,21 @@ void RunWatcher::take_plans() {
     plans_.add(std::move(record), never_flipped && side_flips_.flips().first_s);
   }
   record_.result.plans_missed = plan_.missed();
+}
+
+// A rung lasts until the next plan, or until the mission ends.
+void RunWatcher::take_rung(const PlanRecord& plan, Time stamp) {
+  if (status_.ended == Time{} || stamp <= status_.ended) {
+    count_rung_until(plan.t_s);
+    rung_ = plan.rung;
+  }
+}
+
+void RunWatcher::count_rung_until(double time_s) {
+  if (rung_ && time_s > rung_counted_s_) {
+    record_.result.rung_s[*rung_] += time_s - rung_counted_s_;
+  }
+  rung_counted_s_ = time_s;
 }
 
 void RunWatcher::take_truth() {
@@ -354,6 +370,7 @@ RunRecord RunWatcher::finish() {
   result.first_side_flip_s = side_flips_.flips().first_s;
   result.plan_time_us = plan_times_us_.percentiles();
   result.ping_to_command_us = ping_to_command_us_.percentiles();
+  count_rung_until(result.time_s);
   record_.trajectory = rows_.rows();
   record_.plans = plans_.plans();
   return record_;

@@ -60,6 +60,8 @@ class RunWatcher {
   void take_truth();
   void take_commands();
   void take_plans();
+  void take_rung(const PlanRecord& plan, Time stamp);
+  void count_rung_until(double time_s);
   void take_health();
   void add_truth(const Stamped<WorldTruth>& truth);
   void take_the_least(const WorldTruth& truth);
@@ -89,6 +91,8 @@ class RunWatcher {
   HelmCommand command_;
   ThrustApplied applied_;
   std::optional<PlanRecord> last_plan_;
+  std::optional<std::string> rung_;               // of the last plan before the mission's end
+  double rung_counted_s_ = 0.0;                   // its time is counted up to here
   std::deque<Stamped<WorldTruth>> recent_truth_;  // the last second
   std::optional<WorldTruth> last_truth_;
   std::optional<double> heading_10hz_rad_;

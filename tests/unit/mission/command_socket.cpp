@@ -115,6 +115,32 @@ TEST_CASE("command socket: an answer may take its time, and others are served me
   CHECK(reply == done("abort"));
 }
 
+TEST_CASE("command socket: who awaits an answer when it ends still gets it, within a moment",
+          "[high_level][mission]") {
+  std::atomic<bool> confirmed{false};
+  std::atomic<int> handled{0};
+  auto socket =
+      std::make_unique<CommandSocket>(any_port(), [&](const std::string& command) -> Answer {
+        ++handled;
+        return [&confirmed, command]() -> std::optional<std::string> {
+          return confirmed && command == "abort" ? std::optional{done(command)} : std::nullopt;
+        };
+      });
+  const auto abort = connect(socket->port());
+  *abort << line_of("abort") << "\n" << std::flush;
+  const auto never = connect(socket->port());
+  *never << line_of("status") << "\n" << std::flush;
+  while (handled < 2) {
+    std::this_thread::sleep_for(milliseconds{1});
+  }
+  confirmed = true;
+  socket.reset();
+  std::string reply;
+  std::getline(*abort, reply);
+  CHECK(reply == done("abort"));
+  CHECK(ended(*never));
+}
+
 TEST_CASE("command socket: silent and half-open sessions end, a session that talks does not",
           "[high_level][mission]") {
   CommandSocketOptions options = any_port();

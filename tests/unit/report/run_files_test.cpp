@@ -86,6 +86,7 @@ const std::vector<std::string> kResultKeys{"scenario",
                                            "plans_found",
                                            "plans_not_found",
                                            "plan_reasons",
+                                           "rungs",
                                            "side_flips",
                                            "heading_travel_deg",
                                            "plan_time_us",
@@ -119,6 +120,7 @@ TEST_CASE("result.json: exactly the contract's keys in its order", "[report]") {
   CHECK(keys_of(json["plan_time_us"]) == percentiles);
   CHECK(keys_of(json["ping_to_command_us"]) == percentiles);
   CHECK(json["plan_reasons"].is_object());
+  CHECK(json["rungs"].is_object());
 }
 
 TEST_CASE("result.json: a fault is told at the end, and only then", "[report]") {
@@ -152,12 +154,14 @@ TEST_CASE("result.json: values arrive, and foreign bytes do not break the docume
   result.final_m = {-0.25, 19.68};
   result.min_inoffensive_distance_m = -0.1;
   result.plan_reasons = {{"no_path", 2}, {"found", 55}};
+  result.rung_s = {{"aside", 2.5}, {"on_route", 30.0}};
   result.plan_time_us = {.p50 = 1.5, .p99 = 2.5, .max = 3.5};
   result.recording_hash = "0123456789abcdef";
   const Json json = Json::parse(cli::result_json(result));
   CHECK(json["final_m"] == Json::array({-0.25, 19.68}));
   CHECK(json["min_inoffensive_distance_m"] == -0.1);
   CHECK(json["plan_reasons"]["found"] == 55);
+  CHECK(json["rungs"] == Json({{"aside", 2.5}, {"on_route", 30.0}}));
   CHECK(json["plan_time_us"]["p99"] == 2.5);
   CHECK(json["recording_hash"] == "0123456789abcdef");
 }

@@ -53,8 +53,9 @@ struct Bench {
     truths.publish(truth, now);
     now += milliseconds{20};
   }
-  void plan(PathReason reason) {
+  void plan(PathReason reason, PlanRung rung = PlanRung::kOnRoute) {
     Plan made;
+    made.rung = rung;
     made.id = ++plan_id;
     made.reason = reason;
     made.captured = now;
@@ -119,6 +120,34 @@ TEST_CASE("watcher: without obstacles there is no least distance", "[run]") {
   CHECK_FALSE(result.min_inoffensive_distance_m.has_value());
   CHECK_FALSE(result.time_of_min_inoffensive_distance_s.has_value());
   CHECK_FALSE(result.min_hull_clearance_m.has_value());
+}
+
+TEST_CASE("watcher: a rung lasts until the next plan or the mission's end", "[run]") {
+  Bench bench;
+  bench.plan(PathReason::kFound, PlanRung::kStop);
+  bench.start();
+  const auto sail = [&](int truths) {
+    for (int i = 0; i < truths; ++i) {
+      bench.truth(5.0, 4.5);
+    }
+    bench.watcher.poll();
+  };
+  sail(10);
+  bench.plan(PathReason::kFound);
+  sail(100);
+  bench.plan(PathReason::kFound, PlanRung::kAside);
+  sail(50);
+  bench.plan(PathReason::kFound);
+  sail(25);
+  bench.end(MissionState::kReached);
+  bench.now += milliseconds{100};
+  bench.plan(PathReason::kFound, PlanRung::kHold);
+  bench.watcher.poll();
+  const auto rungs = bench.watcher.finish().result.rung_s;
+  REQUIRE(rungs.size() == 3);
+  CHECK(rungs.at("stop") == Approx(0.2));
+  CHECK(rungs.at("on_route") == Approx(2.5));
+  CHECK(rungs.at("aside") == Approx(1.0));
 }
 
 TEST_CASE("watcher: a row every tenth of a second and every plan are handed on at once", "[run]") {
