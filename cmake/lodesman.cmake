@@ -22,13 +22,15 @@ function(lodesman_compile_fast name)
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:None>:-O0>)
 endfunction()
 
-# One static library a room: lodesman_room(low_level/path grid.cpp search.cpp LINKS lodesman::messages)
-# makes the target lodesman::path.
+# One static library a room, its target named by the whole path:
+# lodesman_room(low_level/path grid.cpp search.cpp LINKS lodesman::mid_level::geometry) makes
+# lodesman::low_level::path.
 function(lodesman_room room)
   cmake_parse_arguments(ARG "" "" "LINKS;PRIVATE_LINKS" ${ARGN})
-  get_filename_component(name ${room} NAME)
+  string(REPLACE "/" "_" name ${room})
+  string(REPLACE "/" "::" alias ${room})
   add_library(lodesman_${name} STATIC ${ARG_UNPARSED_ARGUMENTS})
-  add_library(lodesman::${name} ALIAS lodesman_${name})
+  add_library(lodesman::${alias} ALIAS lodesman_${name})
   target_link_libraries(lodesman_${name} PUBLIC lodesman_flags ${ARG_LINKS}
                                          PRIVATE ${ARG_PRIVATE_LINKS})
   if(room MATCHES "^deploy/")

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "drivers/hal/reading.h"
-#include "hal_sim/world/fault.h"
+#include "hal_sim/scenario/fault.h"
 #include "hal_sim/world/sim_link.h"
 
 namespace lodesman {

@@ -5,7 +5,7 @@
 
 #include "drivers/hal/devices.h"
 #include "hal_sim/devices/sample_feed.h"
-#include "hal_sim/world/scenario.h"
+#include "hal_sim/scenario/scenario.h"
 
 namespace lodesman {
 

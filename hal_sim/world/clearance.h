@@ -4,7 +4,7 @@
 #pragma once
 
 #include "mid_level/base/frames.h"
-#include "mid_level/messages/obstacle_distance.h"
+#include "mid_level/geometry/obstacle_distance.h"
 
 namespace lodesman {
 

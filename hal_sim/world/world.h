@@ -4,7 +4,7 @@
 #pragma once
 
 #include "drivers/hal/devices.h"
-#include "hal_sim/world/scenario.h"
+#include "hal_sim/scenario/scenario.h"
 #include "hal_sim/world/vessel.h"
 #include "mid_level/messages/vehicle.h"
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "high_level/guidance/current.h"
-#include "mid_level/messages/obstacle_distance.h"
+#include "mid_level/geometry/obstacle_distance.h"
 
 namespace lodesman {
 namespace {

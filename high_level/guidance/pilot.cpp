@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mid_level/messages/obstacle_distance.h"
+#include "mid_level/geometry/obstacle_distance.h"
 
 namespace lodesman {
 namespace {

@@ -7,9 +7,9 @@
 #include <span>
 
 #include "mid_level/base/frames.h"
+#include "mid_level/geometry/sonar_view.h"
 #include "mid_level/messages/command.h"
 #include "mid_level/messages/path.h"
-#include "mid_level/messages/sonar_view.h"
 
 namespace lodesman {
 

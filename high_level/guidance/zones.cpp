@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "mid_level/messages/moving_obstacle.h"
-#include "mid_level/messages/obstacle_distance.h"
+#include "mid_level/geometry/moving_obstacle.h"
+#include "mid_level/geometry/obstacle_distance.h"
 
 namespace lodesman {
 namespace {

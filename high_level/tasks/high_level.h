@@ -8,7 +8,6 @@
 #include "high_level/tasks/controller.h"
 #include "high_level/tasks/estimator.h"
 #include "high_level/tasks/planner.h"
-#include "mid_level/base/config/toml_document.h"
 
 namespace lodesman {
 
@@ -17,10 +16,6 @@ struct HighLevelOptions {
   PlannerOptions planner;
   ControllerOptions controller;
 };
-
-// Reads [planner], [guidance], [control] and [estimator]; mission, start, origin, range and speed
-// come from elsewhere.
-[[nodiscard]] HighLevelOptions read_high_level_options(const TomlTable& configuration);
 
 class HighLevel {
  public:

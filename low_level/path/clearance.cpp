@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "low_level/path/plane.h"
-#include "mid_level/messages/sonar_view.h"
+#include "mid_level/geometry/sonar_view.h"
 
 namespace lodesman {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "low_level/path/bit_lines.h"
 #include "low_level/path/zone.h"
-#include "mid_level/messages/sonar_view.h"
+#include "mid_level/geometry/sonar_view.h"
 
 namespace lodesman {
 

@@ -7,9 +7,9 @@
 
 #include "low_level/path/grid.h"
 #include "low_level/path/path_search.h"
+#include "mid_level/geometry/sonar_view.h"
 #include "mid_level/messages/path.h"
 #include "mid_level/messages/sonar.h"
-#include "mid_level/messages/sonar_view.h"
 
 namespace lodesman {
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <variant>
 
+#include "mid_level/geometry/sonar_view.h"
 #include "mid_level/messages/obstacle.h"
-#include "mid_level/messages/sonar_view.h"
 
 namespace lodesman {
 

@@ -8,7 +8,7 @@
 
 #include "mid_level/base/frames.h"
 #include "mid_level/base/time.h"
-#include "mid_level/messages/moving_obstacle.h"
+#include "mid_level/geometry/moving_obstacle.h"
 #include "mid_level/messages/sonar.h"
 
 namespace lodesman {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "mid_level/messages/obstacle_distance.h"
+#include "mid_level/geometry/obstacle_distance.h"
 
 namespace lodesman {
 namespace {

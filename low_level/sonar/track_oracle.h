@@ -12,7 +12,7 @@
 
 #include "low_level/sonar/known_obstacles.h"
 #include "mid_level/base/random_stream.h"
-#include "mid_level/messages/moving_obstacle.h"
+#include "mid_level/geometry/moving_obstacle.h"
 #include "mid_level/messages/tracks.h"
 
 namespace lodesman {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "mid_level/base/frames.h"
+#include "mid_level/geometry/sonar_view.h"
 #include "mid_level/messages/path.h"
 #include "mid_level/messages/sonar.h"
-#include "mid_level/messages/sonar_view.h"
 
 namespace lodesman {
 

@@ -12,7 +12,7 @@
 #include "low_level/sonar/protection.h"
 #include "low_level/sonar/segmentation.h"
 #include "low_level/sonar/track_oracle.h"
-#include "mid_level/messages/moving_obstacle.h"
+#include "mid_level/geometry/moving_obstacle.h"
 #include "mid_level/runtime/task.h"
 
 namespace lodesman {

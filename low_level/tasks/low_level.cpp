@@ -3,29 +3,9 @@
 
 #include <utility>
 
-#include "low_level/sonar/segmentation_config.h"
 #include "mid_level/runtime/task_table.h"
 
 namespace lodesman {
-
-LowLevelOptions read_low_level_options(const TomlTable& configuration) {
-  LowLevelOptions options;
-  options.delta_t.segmentation = read_segmentation_options(configuration.table("segmentation"));
-  const TomlTable zones = configuration.table("zones");
-  const OwnZones own{zones.number("hull_radius_m", Range::between(0.0, 10.0)),
-                     zones.number("margin_m", Range::between(0.0, 20.0))};
-  if (zones.choice("source", {"own", "protection"}) == 0) {
-    options.delta_t.own_zones = own;
-  }
-  const TomlTable tracks = configuration.table("tracks");
-  auto& oracle = options.delta_t.track_oracle;
-  oracle.delay = tracks.duration("delay_s", Range::between(0.0, 2.0));
-  oracle.place_sigma_m = tracks.number("place_sigma_m", Range::between(0.0, 5.0));
-  oracle.velocity_sigma_m_s = tracks.number("velocity_sigma_m_s", Range::between(0.0, 1.0));
-  oracle.dropout = tracks.number("dropout", Range::between(0.0, 0.99));
-  oracle.memory = tracks.duration("memory_s", Range::between(0.0, 3600.0));
-  return options;
-}
 
 LowLevel::LowLevel(Blackboard& board, Role role, LowLevelDevices devices, LowLevelOptions options)
     : devices_{std::move(devices)},

@@ -11,7 +11,6 @@
 #include "low_level/tasks/path_finder.h"
 #include "low_level/tasks/sensors.h"
 #include "low_level/tasks/thruster.h"
-#include "mid_level/base/config/toml_document.h"
 
 namespace lodesman {
 
@@ -26,9 +25,6 @@ struct LowLevelOptions {
   DeltaTOptions delta_t;
   double sonar_range_m = 0.0;  // [m] > 0 the range setting
 };
-
-// Reads [segmentation] and [zones]; scene and range come from elsewhere.
-[[nodiscard]] LowLevelOptions read_low_level_options(const TomlTable& configuration);
 
 class LowLevel {
  public:

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "deploy/cli/report/percentiles.h"
-#include "deploy/cli/run/lockstep_run.h"
+#include "deploy/operator/report/percentiles.h"
+#include "deploy/operator/run/lockstep_run.h"
 #include "mid_level/base/stopwatch.h"
 
 namespace lodesman::bench {
@@ -40,8 +40,8 @@ struct Cost {
 };
 
 Cost sail(const std::string& scenario_name) {
-  const TomlDocument configuration = cli::load_configuration("default", {});
-  const Scenario scenario = cli::load_named_scenario(scenario_name);
+  const TomlDocument configuration = load_configuration("default", {});
+  const Scenario scenario = load_named_scenario(scenario_name);
   const std::function<bool()> never = [] { return false; };
   const std::function<void(const cli::RunProgress&)> silent = [](const cli::RunProgress&) {};
   Cost cost;

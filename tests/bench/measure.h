@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mid_level/messages/sonar_view.h"
+#include "mid_level/geometry/sonar_view.h"
 #include "tests/support/random_frames.h"
 
 namespace lodesman::bench {

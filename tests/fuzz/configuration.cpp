@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 
-#include "deploy/cli/run/settings.h"
+#include "deploy/boat/configuration.h"
+#include "deploy/boat/level_options.h"
 #include "tests/fuzz/oracle.h"
 #include "tests/fuzz/outside_file.h"
 #include "tests/fuzz/targets.h"
@@ -16,9 +17,9 @@ void require_handed_on(const TomlDocument& accepted) {
     const TomlDocument handed_on = TomlDocument::from_text(text, "handed-on.toml");
     (void)read_low_level_options(handed_on.root());
     (void)read_high_level_options(handed_on.root());
-    (void)cli::command_socket_settings(handed_on);
-    (void)cli::device_addresses(handed_on);
-    (void)cli::simulation_settings(handed_on);
+    (void)command_socket_settings(handed_on);
+    (void)device_addresses(handed_on);
+    (void)simulation_settings(handed_on);
     handed_on.require_all_keys_read();
     require(handed_on.to_text() == text, "a configuration changes when it is handed on");
   } catch (const StartupError& error) {
@@ -27,24 +28,24 @@ void require_handed_on(const TomlDocument& accepted) {
   }
 }
 
-void load(const cli::CommonOptions& options) {
+void load(const CommonOptions& options) {
   // Where the shipped configuration lies, wherever this program does.
   static const int kSet = setenv("LODESMAN_SHARE", LODESMAN_SOURCE_DIR, 1);
   require(kSet == 0, "no environment");
-  accepted_or_refused([&] { require_handed_on(cli::load_configuration("default", options)); });
+  accepted_or_refused([&] { require_handed_on(load_configuration("default", options)); });
 }
 
 }  // namespace
 
 void configuration(std::string_view input) {
   const OutsideFile file{input};
-  cli::CommonOptions options;
+  CommonOptions options;
   options.config_files = {file.path()};
   load(options);
 }
 
 void setting(std::string_view input) {
-  cli::CommonOptions options;
+  CommonOptions options;
   options.sets = {std::string{input}};
   load(options);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/cli/tools/frame_file.h"
+#include "deploy/operator/bench/frame_file.h"
 
 #include <algorithm>
 

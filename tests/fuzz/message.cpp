@@ -4,7 +4,9 @@
 #include <cstring>
 #include <memory>
 
-#include "deploy/cli/run/settings.h"
+#include "deploy/boat/configuration.h"
+#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/voyage.h"
 #include "high_level/tasks/high_level.h"
 #include "low_level/tasks/path_finder.h"
 #include "low_level/tasks/thruster.h"
@@ -86,8 +88,8 @@ void overlay(Channel<T, kDepth>& channel, std::string_view input) {
 
 [[nodiscard]] const HighLevelOptions& high_options(bool in_world) {
   static const auto make = [](const char* profile) {
-    HighLevelOptions options = cli::high_level_options(cli::load_configuration(profile, {}),
-                                                       cli::load_named_scenario("paper-moving"));
+    HighLevelOptions options =
+        high_level_options(load_configuration(profile, {}), load_named_scenario("paper-moving"));
     options.planner.start_by_itself = true;
     return options;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/cli/tools/moving_ai.h"
+#include "deploy/operator/bench/moving_ai.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hal_sim/world/scenario.h"
+#include "hal_sim/scenario/scenario.h"
 
 #include <cmath>
 

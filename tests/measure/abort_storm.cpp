@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <random>
 
 #include "high_level/mission/token_file.h"
 #include "tests/support/command_crowd.h"

@@ -11,8 +11,8 @@
 
 #include "low_level/path/grid.h"
 #include "low_level/path/zone.h"
+#include "mid_level/geometry/sonar_view.h"
 #include "mid_level/messages/path.h"
-#include "mid_level/messages/sonar_view.h"
 
 namespace lodesman::testing {
 

@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "deploy/cli/run/child_process.h"
-#include "deploy/cli/run/settings.h"
+#include "deploy/boat/configuration.h"
+#include "deploy/operator/run/child_process.h"
 #include "mid_level/base/clock.h"
 #include "mid_level/blackboard/segment.h"
 

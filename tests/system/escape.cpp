@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "hal_sim/world/clearance.h"
-#include "mid_level/messages/obstacle_distance.h"
+#include "mid_level/geometry/obstacle_distance.h"
 
 namespace lodesman::testing {
 namespace {

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "hal_sim/world/vessel.h"
-#include "mid_level/messages/moving_obstacle.h"
+#include "mid_level/geometry/moving_obstacle.h"
 
 namespace lodesman::testing {
 

@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "deploy/cli/run/settings.h"
-#include "deploy/cli/run/simulated_boat.h"
-#include "deploy/cli/run/watcher.h"
+#include "deploy/boat/configuration.h"
+#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/simulation.h"
+#include "deploy/boat/voyage.h"
+#include "deploy/operator/run/watcher.h"
 #include "mid_level/recording/recording_hash.h"
 #include "mid_level/runtime/run_lockstep.h"
 #include "tests/support/catch.h"
@@ -39,8 +41,8 @@ struct Applied {
 class ForgedBoat {
  public:
   ForgedBoat(const std::string& profile, const std::string& scenario_name)
-      : configuration_{cli::load_configuration(profile, {})},
-        scenario_{cli::load_named_scenario(scenario_name)},
+      : configuration_{load_configuration(profile, {})},
+        scenario_{load_named_scenario(scenario_name)},
         boat_{*board_, configuration_, scenario_},
         options_{high_options()},
         high_{*board_, Role::kHigh, options_},
@@ -71,7 +73,7 @@ class ForgedBoat {
 
  private:
   [[nodiscard]] HighLevelOptions high_options() const {
-    HighLevelOptions options = cli::high_level_options(configuration_, scenario_);
+    HighLevelOptions options = high_level_options(configuration_, scenario_);
     options.planner.start_by_itself = true;
     return options;
   }
@@ -79,7 +81,7 @@ class ForgedBoat {
   std::unique_ptr<Blackboard> board_ = std::make_unique<Blackboard>();
   TomlDocument configuration_;
   Scenario scenario_;
-  cli::SimulatedBoat boat_;
+  SimulatedBoat boat_;
   HighLevelOptions options_;
   HighLevel high_;
   cli::RunWatcher watcher_;

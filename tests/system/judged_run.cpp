@@ -5,7 +5,10 @@
 #include <cstdio>
 #include <map>
 
-#include "deploy/cli/run/lockstep_run.h"
+#include "deploy/boat/configuration.h"
+#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/voyage.h"
+#include "deploy/operator/run/lockstep_run.h"
 #include "tests/system/escape.h"
 
 namespace lodesman::testing {
@@ -58,7 +61,7 @@ class Witness {
 
 [[nodiscard]] Collision judge(const Scenario& scenario, const Witness& witness) {
   const Waters waters{
-      cli::load_vessel_parameters(), {0.0, 0.0, scenario.environment.lift}, scenario.obstacles};
+      load_vessel_parameters(), {0.0, 0.0, scenario.environment.lift}, scenario.obstacles};
   // One in the last tenth of a second, after the last plan, is judged by the last truth seen.
   const WorldTruth hit = witness.hit().value_or(witness.now());
   Collision collision;
@@ -113,10 +116,10 @@ template <class... Values>
 
 JudgedRun judged_run(const std::string& scenario_name, const std::vector<std::string>& sets,
                      std::optional<std::uint64_t> seed) {
-  cli::CommonOptions options;
+  CommonOptions options;
   options.sets = sets;
-  const TomlDocument configuration = cli::load_configuration("default", options);
-  Scenario scenario = cli::load_named_scenario(scenario_name);
+  const TomlDocument configuration = load_configuration("default", options);
+  Scenario scenario = load_named_scenario(scenario_name);
   scenario.seed = seed.value_or(scenario.seed);
   Witness witness;
   const std::function<bool()> never = [] { return false; };

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "deploy/cli/report/run_record.h"
+#include "deploy/operator/report/run_record.h"
 
 namespace lodesman::testing {
 

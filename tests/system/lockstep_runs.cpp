@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "deploy/cli/report/run_files.h"
-#include "deploy/cli/run/lockstep_run.h"
+#include "deploy/boat/configuration.h"
+#include "deploy/operator/report/run_files.h"
+#include "deploy/operator/run/lockstep_run.h"
 #include "tests/support/catch.h"
 
 using namespace lodesman;

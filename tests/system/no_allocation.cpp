@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "deploy/cli/run/settings.h"
-#include "deploy/cli/run/simulated_boat.h"
+#include "deploy/boat/configuration.h"
+#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/simulation.h"
+#include "deploy/boat/voyage.h"
 #include "mid_level/runtime/run_lockstep.h"
 #include "tests/support/allocations.h"
 #include "tests/support/catch.h"
@@ -79,13 +81,13 @@ class CountedBoat {
  private:
   [[nodiscard]] static HighLevelOptions high_options(const TomlDocument& configuration,
                                                      const Scenario& scenario) {
-    HighLevelOptions options = cli::high_level_options(configuration, scenario);
+    HighLevelOptions options = high_level_options(configuration, scenario);
     options.planner.start_by_itself = true;
     return options;
   }
 
   std::unique_ptr<Blackboard> board_ = std::make_unique<Blackboard>();
-  cli::SimulatedBoat boat_;
+  SimulatedBoat boat_;
   HighLevel high_;
   SimClock clock_;
   std::map<TaskId, std::unique_ptr<CountedTask>> tasks_;
@@ -94,7 +96,7 @@ class CountedBoat {
 };
 
 void check_no_allocation(const std::string& profile, const std::string& scenario) {
-  CountedBoat boat{cli::load_configuration(profile, {}), cli::load_named_scenario(scenario)};
+  CountedBoat boat{load_configuration(profile, {}), load_named_scenario(scenario)};
   boat.sail(std::chrono::seconds{5});
   boat.reset();
   const std::uint64_t plans = boat.plans();

@@ -4,8 +4,11 @@
 // races is the sanitizer's to say.
 #include <sys/wait.h>
 
-#include "deploy/cli/run/process_main.h"
-#include "deploy/cli/run/simulated_boat.h"
+#include "deploy/boat/configuration.h"
+#include "deploy/boat/exit_status.h"
+#include "deploy/boat/process_main.h"
+#include "deploy/boat/simulation.h"
+#include "deploy/boat/voyage.h"
 #include "mid_level/recording/recording_hash.h"
 #include "mid_level/runtime/run_realtime.h"
 #include "tests/support/catch.h"
@@ -45,7 +48,7 @@ TEST_CASE("one process: both levels sail over one segment, and an onlooker reads
     const auto board = SharedBlackboard::observe(segment, Duration::zero());
     const TomlDocument configuration = load_configuration(profile, CommonOptions{});
     const Scenario scenario = load_named_scenario("paper-static");
-    cli::SimulatedBoat boat{low_board.writable(), configuration, scenario};
+    SimulatedBoat boat{low_board.writable(), configuration, scenario};
     HighLevelOptions options = high_level_options(configuration, scenario);
     options.planner.start_by_itself = true;
     HighLevel high{high_board.writable(), Role::kHigh, options};
@@ -96,13 +99,13 @@ TEST_CASE("one process: a program with a task that hangs ends by itself, and wit
     Hanging driver;
     const TaskEntry entry = scheduled(TaskId::kDeltaT, driver);
     {
-      const RealtimeRunner runner{std::span{&entry, 1}, *board, Role::kLow, cli::end_without};
+      const RealtimeRunner runner{std::span{&entry, 1}, *board, Role::kLow, end_without};
       (void)eventually([&] { return driver.hangs_.load(); });
     }
-    _exit(cli::kExitDone);
+    _exit(kExitDone);
   }
   int status = 0;
   REQUIRE(eventually([&] { return waitpid(program, &status, WNOHANG) == program; }));
   REQUIRE(WIFEXITED(status));
-  CHECK(WEXITSTATUS(status) == cli::kExitFault);
+  CHECK(WEXITSTATUS(status) == kExitFault);
 }

@@ -10,8 +10,8 @@
 #include <set>
 #include <sstream>
 
+#include "tests/support/full_pipe.h"
 #include "tests/system/program.h"
-#include "tests/unit/run/full_pipe.h"
 
 using namespace lodesman;
 using namespace lodesman::testing;

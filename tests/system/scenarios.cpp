@@ -9,7 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "deploy/cli/run/lockstep_run.h"
+#include "deploy/boat/configuration.h"
+#include "deploy/operator/run/lockstep_run.h"
 #include "low_level/path/world_path_finder.h"
 #include "tests/support/catch.h"
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/tidy/source_file.h"
@@ -21,7 +22,15 @@ struct Rule {
 // Every rule that looks at one file at a time.
 [[nodiscard]] const std::vector<Rule>& rules();
 
-// Includes follow the arrows between the rooms.
+// A room and what its files may include besides itself and mid_level/base: whole rooms or single
+// files; an empty name stands for everything. docs/architecture.md shows this table.
+struct Arrow {
+  std::string_view room;
+  std::vector<std::string_view> may_include;
+};
+[[nodiscard]] const std::vector<Arrow>& arrows();
+
+// Includes follow the arrows between the rooms. Every file lies in a room.
 [[nodiscard]] Findings include_arrows(const SourceFile& file);
 // A library's headers stay in the rooms that wrap it.
 [[nodiscard]] Findings library_rooms(const SourceFile& file);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fstream>
+
 #include "tests/support/catch.h"
 #include "tests/tidy/rules.h"
 
@@ -27,6 +29,28 @@ TEST_CASE("tidy: every test that a document cites exists", "[tidy]") {
   for (const std::string& finding : missing_tests(read_tree(LODESMAN_SOURCE_DIR))) {
     FAIL_CHECK(finding);
   }
+}
+
+TEST_CASE("docs: the table of rooms is the law's own", "[tidy][docs]") {
+  std::vector<std::string> rows;
+  for (const Arrow& arrow : arrows()) {
+    std::string row = "| `" + std::string{arrow.room} + "` |";
+    for (const std::string_view place : arrow.may_include) {
+      row += std::string{place == arrow.may_include.front() ? " " : ", "} +
+             (place.empty() ? "everything" : "`" + std::string{place} + "`");
+    }
+    rows.push_back(row + " |");
+  }
+  std::ifstream file{LODESMAN_SOURCE_DIR "/docs/architecture.md"};
+  std::vector<std::string> documented;
+  std::string line;
+  while (std::getline(file, line) && line != "| room | may include |") {
+  }
+  std::getline(file, line);  // the rule below the head
+  while (std::getline(file, line) && line.starts_with("|")) {
+    documented.push_back(line);
+  }
+  CHECK(documented == rows);
 }
 
 }  // namespace

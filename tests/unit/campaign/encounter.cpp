@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "hal_sim/world/scenario.h"
-#include "mid_level/messages/obstacle_distance.h"
+#include "hal_sim/scenario/scenario.h"
+#include "mid_level/geometry/obstacle_distance.h"
 #include "tests/support/catch.h"
 
 namespace lodesman {

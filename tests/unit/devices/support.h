@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "hal_sim/world/scenario.h"
+#include "hal_sim/scenario/scenario.h"
 #include "hal_sim/world/sim_link.h"
 
 namespace lodesman::testing {

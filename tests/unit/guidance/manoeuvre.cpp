@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "mid_level/base/heading.h"
-#include "mid_level/messages/moving_obstacle.h"
-#include "mid_level/messages/obstacle_distance.h"
+#include "mid_level/geometry/moving_obstacle.h"
+#include "mid_level/geometry/obstacle_distance.h"
 #include "tests/support/catch.h"
 #include "tests/unit/guidance/support.h"
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "mid_level/messages/sonar_view.h"
+#include "mid_level/geometry/sonar_view.h"
 #include "tests/support/catch.h"
 #include "tests/unit/guidance/support.h"
 

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "deploy/boat/level_options.h"
 #include "high_level/guidance/manoeuvre.h"
 #include "high_level/guidance/zones.h"
 #include "high_level/tasks/high_level.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "mid_level/messages/obstacle_distance.h"
+#include "mid_level/geometry/obstacle_distance.h"
 #include "tests/support/catch.h"
 #include "tests/unit/guidance/support.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "mid_level/messages/sonar_view.h"
+#include "mid_level/geometry/sonar_view.h"
 #include "tests/support/catch.h"
 #include "tests/unit/path/tangent_check.h"
 

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "mid_level/base/frames.h"
-#include "mid_level/messages/obstacle_distance.h"
+#include "mid_level/geometry/obstacle_distance.h"
 #include "tests/support/allocations.h"
 #include "tests/support/catch.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/cli/report/kept_run.h"
+#include "deploy/operator/report/kept_run.h"
 
 #include <algorithm>
 

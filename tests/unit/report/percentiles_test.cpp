@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/cli/report/percentiles.h"
+#include "deploy/operator/report/percentiles.h"
 
 #include <limits>
 #include <numeric>

@@ -3,10 +3,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "deploy/cli/report/gnuplot.h"
-#include "deploy/cli/report/plot_script.h"
-#include "deploy/cli/report/plots.h"
-#include "deploy/cli/report/world_story.h"
+#include "deploy/operator/report/gnuplot.h"
+#include "deploy/operator/report/plot_script.h"
+#include "deploy/operator/report/plots.h"
+#include "deploy/operator/report/world_story.h"
 #include "mid_level/base/startup_error.h"
 #include "tests/support/catch.h"
 #include "tests/unit/report/sample_runs.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/cli/report/plan_story.h"
+#include "deploy/operator/report/plan_story.h"
 
 #include "tests/support/catch.h"
 

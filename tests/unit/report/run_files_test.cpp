@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/cli/report/run_files.h"
+#include "deploy/operator/report/run_files.h"
 
 #include <sys/resource.h>
 
@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "deploy/cli/report/numbers.h"
+#include "deploy/operator/report/numbers.h"
 #include "mid_level/base/startup_error.h"
 #include "tests/support/catch.h"
 #include "tests/unit/report/sample_runs.h"

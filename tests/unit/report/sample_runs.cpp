@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "deploy/cli/report/side_flips.h"
+#include "deploy/operator/report/side_flips.h"
 
 namespace lodesman::testing {
 namespace {

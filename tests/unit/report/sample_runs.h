@@ -2,7 +2,7 @@
 // Made-up runs that look like real ones, for the tests of what a run leaves behind.
 #pragma once
 
-#include "deploy/cli/report/run_record.h"
+#include "deploy/operator/report/run_record.h"
 
 namespace lodesman::testing {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/cli/report/side_flips.h"
+#include "deploy/operator/report/side_flips.h"
 
 #include "tests/support/catch.h"
 #include "tests/unit/report/sample_runs.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/cli/run/child_process.h"
+#include "deploy/operator/run/child_process.h"
 
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/cli/run/progress.h"
+#include "deploy/operator/run/progress.h"
 
 #include <csignal>
 
-#include "deploy/cli/run/settings.h"
-#include "tests/unit/run/full_pipe.h"
+#include "deploy/boat/configuration.h"
+#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/voyage.h"
+#include "tests/support/full_pipe.h"
 
 using namespace lodesman;
 using cli::ProgressLine;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/cli/run/run_directory.h"
+#include "deploy/operator/run/run_directory.h"
 
 #include <fstream>
 #include <set>

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/cli/run/watcher.h"
+#include "deploy/operator/run/watcher.h"
 
 #include <memory>
 
-#include "deploy/cli/run/settings.h"
+#include "deploy/boat/configuration.h"
+#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/voyage.h"
 #include "tests/support/catch.h"
 
 using namespace lodesman;

@@ -8,8 +8,8 @@
 #include <memory>
 #include <numbers>
 
+#include "deploy/boat/level_options.h"
 #include "low_level/sonar/segmentation.h"
-#include "low_level/sonar/segmentation_config.h"
 #include "mid_level/base/heading.h"
 #include "mid_level/messages/sonar.h"
 

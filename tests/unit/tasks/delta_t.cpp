@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "low_level/tasks/delta_t.h"
+#include "deploy/boat/level_options.h"
 
 #include "low_level/tasks/low_level.h"
 #include "tests/support/catch.h"

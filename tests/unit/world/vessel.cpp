@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tests/support/catch.h"
-#include "tests/unit/world/support.h"
+#include "tests/support/shipped_vessel.h"
 
 namespace lodesman {
 namespace {
@@ -92,18 +92,18 @@ const std::vector<Manoeuvre> kManoeuvres = {
 };
 
 // Where a manoeuvre ends, with the way and the turning done on it.
-struct Track {
+struct Sailed {
   Eigen::Vector2d end_m = Eigen::Vector2d::Zero();
   double heading_rad = 0.0;
   double way_m = 0.0;
   double turning_rad = 0.0;
 };
 
-[[nodiscard]] Track sail(const Manoeuvre& manoeuvre, double step_s, bool lift) {
+[[nodiscard]] Sailed sail(const Manoeuvre& manoeuvre, double step_s, bool lift) {
   VesselParameters parameters = shipped_vessel();
   parameters.step_s_max = step_s;
   Vessel vessel{parameters, {0.0, 0.0, lift}, {}};
-  Track track;
+  Sailed track;
   for (int i = 0; i * kStep_s < manoeuvre.duration_s; ++i) {
     const VesselState before = vessel.state();
     vessel.advance(kStep_s, manoeuvre.thrust_at(i * kStep_s));
@@ -121,8 +121,8 @@ TEST_CASE("vessel: halving the step moves no manoeuvre by 1 %", "[hal_sim][vesse
   for (const bool lift : {false, true}) {
     for (const Manoeuvre& manoeuvre : kManoeuvres) {
       INFO(manoeuvre.name << (lift ? " with lift" : ""));
-      const Track coarse = sail(manoeuvre, kStep_s, lift);
-      const Track fine = sail(manoeuvre, kStep_s / 2.0, lift);
+      const Sailed coarse = sail(manoeuvre, kStep_s, lift);
+      const Sailed fine = sail(manoeuvre, kStep_s / 2.0, lift);
       CHECK(fine.way_m > 1.0);
       CHECK((coarse.end_m - fine.end_m).norm() <= 0.01 * fine.way_m);
       CHECK(std::abs(coarse.heading_rad - fine.heading_rad) <= 0.01 * fine.turning_rad + 1e-12);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tests/support/catch.h"
-#include "tests/unit/world/support.h"
+#include "tests/support/shipped_vessel.h"
 
 namespace lodesman {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "hal_sim/devices/sim_thruster_pair.h"
 #include "tests/support/catch.h"
-#include "tests/unit/world/support.h"
+#include "tests/support/shipped_vessel.h"
 
 namespace lodesman {
 namespace {

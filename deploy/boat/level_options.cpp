@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/boat/level_options.h"
+
+namespace lodesman {
+
+SegmentationOptions read_segmentation_options(const TomlTable& table) {
+  const auto count = [&table](std::string_view key, std::int64_t min, std::int64_t max) {
+    return static_cast<std::uint32_t>(table.integer(key, min, max));
+  };
+  return {
+      .threshold = table.number("threshold", Range::above(0.0, 255.0)),
+      .min_range_m = table.number("min_range_m", Range::between(0.0, 300.0)),
+      .min_blob_bins = count("min_blob_bins", 1, kMaxBeams * kMaxBins),
+      .join_beams = count("join_beams", 1, kMaxJoin),
+      .join_bins = count("join_bins", 1, kMaxJoin),
+      .max_obstacle_length_m = table.number("max_obstacle_length_m", Range::above(0.0, 300.0)),
+      .min_fill = table.number("min_fill", Range::between(0.0, 1.0)),
+      .enclosed_fraction = table.number("enclosed_fraction", Range::between(0.5, 0.99)),
+      .protection_margin_m = table.number("protection_margin_m", Range::between(0.0, 100.0)),
+      .stripe_fraction = table.number("stripe_fraction", Range::above(0.0, 1.0)),
+      .stripe_max_beams = count("stripe_max_beams", 0, kMaxBeams),
+  };
+}
+
+LowLevelOptions read_low_level_options(const TomlTable& configuration) {
+  LowLevelOptions options;
+  options.delta_t.segmentation = read_segmentation_options(configuration.table("segmentation"));
+  const TomlTable zones = configuration.table("zones");
+  const OwnZones own{zones.number("hull_radius_m", Range::between(0.0, 10.0)),
+                     zones.number("margin_m", Range::between(0.0, 20.0))};
+  if (zones.choice("source", {"own", "protection"}) == 0) {
+    options.delta_t.own_zones = own;
+  }
+  const TomlTable tracks = configuration.table("tracks");
+  auto& oracle = options.delta_t.track_oracle;
+  oracle.delay = tracks.duration("delay_s", Range::between(0.0, 2.0));
+  oracle.place_sigma_m = tracks.number("place_sigma_m", Range::between(0.0, 5.0));
+  oracle.velocity_sigma_m_s = tracks.number("velocity_sigma_m_s", Range::between(0.0, 1.0));
+  oracle.dropout = tracks.number("dropout", Range::between(0.0, 0.99));
+  oracle.memory = tracks.duration("memory_s", Range::between(0.0, 3600.0));
+  return options;
+}
+
+namespace {
+
+[[nodiscard]] PilotOptions read_pilot_options(const TomlTable& configuration) {
+  PilotOptions options;
+  const TomlTable zones = configuration.table("zones");
+  options.zones.hull_radius_m = zones.number("hull_radius_m", Range::between(0.0, 10.0));
+  options.zones.margin_m = zones.number("margin_m", Range::between(0.0, 20.0));
+  options.zones.margin_per_speed_s = zones.number("margin_per_speed_s", Range::between(0.0, 20.0));
+  options.zones.margin_per_turning_radius =
+      zones.number("margin_per_turning_radius", Range::between(0.0, 20.0));
+  options.zones.least_margin_m = zones.number("least_margin_m", Range::between(0.0, 20.0));
+  options.zones.doubt_sigmas = zones.number("doubt_sigmas", Range::between(0.0, 10.0));
+  options.zones.doubt_max_m = zones.number("doubt_max_m", Range::between(0.0, 20.0));
+  options.zones.slow_share = zones.number("slow_share", Range::between(0.0, 1.0));
+  const TomlTable pilot = configuration.table("pilot");
+  options.side_gain_m = pilot.number("side_gain_m", Range::between(0.0, 100.0));
+  options.narrow_speed_share = pilot.number("narrow_speed_share", Range::above(0.0, 1.0));
+  options.latency = pilot.duration("latency_s", Range::between(0.0, 2.0));
+  auto& manoeuvres = options.manoeuvres;
+  manoeuvres.clearance_m = pilot.number("clearance_m", Range::above(0.0, 20.0));
+  manoeuvres.core_m = pilot.number("core_m", Range::between(0.0, 10.0));
+  manoeuvres.switch_gain_s = pilot.number("manoeuvre_gain_s", Range::between(0.0, 100.0));
+  manoeuvres.flight_speed_m_s = pilot.number("flight_speed_m_s", Range::between(0.0, 20.0));
+  manoeuvres.doubt_sigmas = options.zones.doubt_sigmas;
+  manoeuvres.doubt_max_m = options.zones.doubt_max_m;
+  options.response.look_ahead_m = pilot.number("look_ahead_m", Range::above(0.0, 50.0));
+  const TomlTable vehicle = configuration.table("vehicle");
+  options.response.hull_half_length_m =
+      vehicle.number("hull_length_m", Range::above(0.0, 100.0)) / 2.0;
+  options.response.hull_half_beam_m = vehicle.number("hull_beam_m", Range::above(0.0, 50.0)) / 2.0;
+  options.response.surge_time_s = vehicle.number("surge_time_s", Range::above(0.0, 100.0));
+  options.response.turn_rate_max_rad_s =
+      vehicle.number("turn_rate_max_rad_s", Range::above(0.0, 5.0));
+  options.zones.turn_rate_max_rad_s = options.response.turn_rate_max_rad_s;
+  options.response.heading_gain_per_s =
+      vehicle.number("heading_gain_per_s", Range::above(0.0, 100.0));
+  return options;
+}
+
+}  // namespace
+
+HighLevelOptions read_high_level_options(const TomlTable& configuration) {
+  HighLevelOptions options;
+  const TomlTable planner = configuration.table("planner");
+  auto& replanner = options.planner.replanner;
+  replanner.replan_period = planner.duration("replan_period_s", Range::between(0.0, 60.0));
+  replanner.answer_patience = planner.duration("answer_patience_s", Range::between(0.1, 10.0));
+  replanner.waypoint_interval_m = planner.number("waypoint_interval_m", Range::between(0.1, 50.0));
+  replanner.previous_path_max_age =
+      planner.duration("previous_path_max_age_s", Range::between(0.0, 1e6));
+  const PilotOptions pilot = read_pilot_options(configuration);
+  options.controller.heading_lead_s =
+      configuration.table("pilot").number("heading_lead_s", Range::between(0.0, 10.0));
+  options.controller.look_ahead_s =
+      configuration.table("pilot").number("look_ahead_s", Range::between(0.0, 60.0));
+  if (planner.choice("space", {"world", "sonar_view"}) == 0) {
+    replanner.pilot = pilot;
+  }
+  options.planner.progress.patience =
+      configuration.table("progress").duration("patience_s", Range::between(1.0, 3600.0));
+  const TomlTable guidance = configuration.table("guidance");
+  options.controller.waypoint_radius_m =
+      guidance.number("waypoint_radius_m", Range::between(0.05, 20.0));
+  options.planner.mission.waypoint_radius_m = options.controller.waypoint_radius_m;
+  const TomlTable control = configuration.table("control");
+  options.controller.heading_gain_per_deg =
+      control.number("heading_gain_per_deg", Range::above(0.0, 100.0));
+  const TomlTable estimator = configuration.table("estimator");
+  auto& reckoning = options.estimator.dead_reckoning;
+  reckoning.step = estimator.duration("dead_reckoning_step_s", Range::between(0.01, 1.0));
+  reckoning.speed_per_surge_ref_m_s =
+      estimator.number("speed_per_surge_ref_m_s", Range::above(0.0, 1.0));
+  options.estimator.surge_lag = estimator.duration("surge_lag_s", Range::between(0.0, 100.0));
+  options.estimator.current_time =
+      estimator.duration("current_time_s", Range::between(0.0, 1000.0));
+  options.estimator.gps_correction = estimator.number("gps_correction", Range::above(0.0, 1.0));
+  return options;
+}
+
+}  // namespace lodesman

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the configuration says of the levels. One thread, at start-up; throws StartupError.
+#pragma once
+
+#include "high_level/tasks/high_level.h"
+#include "low_level/tasks/low_level.h"
+#include "mid_level/config/toml_document.h"
+
+namespace lodesman {
+
+// Reads [segmentation], [zones] and [tracks]; scene and range come from elsewhere.
+[[nodiscard]] LowLevelOptions read_low_level_options(const TomlTable& configuration);
+// The table [segmentation] alone.
+[[nodiscard]] SegmentationOptions read_segmentation_options(const TomlTable& table);
+
+// Reads [planner], [zones], [pilot], [vehicle], [progress], [guidance], [control] and [estimator];
+// mission, start, origin, range and speed come from elsewhere.
+[[nodiscard]] HighLevelOptions read_high_level_options(const TomlTable& configuration);
+
+}  // namespace lodesman

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// lodesman-high: estimator, re-planner, waypoint tracking, P controller and mission; owns the
+// command socket.
+#include <spdlog/spdlog.h>
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "deploy/boat/configuration.h"
+#include "deploy/boat/exit_status.h"
+#include "deploy/boat/log.h"
+#include "deploy/boat/process_main.h"
+#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/voyage.h"
+#include "high_level/mission/command_socket.h"
+#include "high_level/mission/token_file.h"
+#include "high_level/tasks/operator_desk.h"
+#include "mid_level/base/clock.h"
+#include "mid_level/blackboard/segment.h"
+#include "mid_level/runtime/realtime_rights.h"
+#include "mid_level/runtime/run_realtime.h"
+
+namespace lodesman {
+namespace {
+
+constexpr Duration kSegmentPatience = std::chrono::seconds{5};
+constexpr Duration kRefusalPatience = std::chrono::milliseconds{300};
+
+enum class Attachment : std::uint8_t { kFirst, kAgain };
+
+// The operator's way in: the desk, the socket before it, and the token that opens it, which is
+// given or made for this run.
+class WayIn {
+ public:
+  WayIn(Blackboard& board, const CommandSocketSettings& settings)
+      : desk_{board, Role::kHigh, [] { return SteadyClock{}.now(); }},
+        token_{settings.token_file.empty() ? random_token() : read_token(settings.token_file)},
+        socket_{{settings.address, settings.port, token_},
+                [this](const std::string& command) { return desk_.answer(command); }} {
+    if (settings.token_file.empty()) {
+      token_file_.emplace(socket_.port(), token_);
+    }
+    if (settings.port == 0) {  // whoever asked for any port must be told which
+      say("lodesman-high: command socket on " + settings.address + " port " +
+          std::to_string(socket_.port()));
+    }
+  }
+
+ private:
+  OperatorDesk desk_;
+  std::string token_;
+  CommandSocket socket_;
+  std::optional<TokenFile> token_file_;
+};
+
+// The mission's last word, on a segment that is left or on one that was found.
+[[nodiscard]] std::optional<Stamped<MissionStatus>> last_mission(const SharedBlackboard& board) {
+  Reader<MissionStatus> mission{board->mission_status};
+  const auto* last = mission.latest();
+  return last != nullptr ? std::optional{*last} : std::nullopt;
+}
+
+void report_what_was_found(const SharedBlackboard& board) {
+  if (!board.found_dead()) {
+    return;
+  }
+  const auto last = last_mission(board);
+  spdlog::warn("an earlier lodesman-high died; its mission was {}",
+               last ? to_string(last->value.state) : "not yet begun");
+}
+
+// Looks for a segment with a living low level. The first one is waited for as long as a start may
+// take, one that comes back for as long as it takes. What cannot be used is refused, once it cannot
+// be what a low level that starts is about to replace.
+class SegmentSearch {
+ public:
+  SegmentSearch(const std::string& segment, Attachment which) : segment_{segment}, which_{which} {}
+
+  // Empty while there is none. Throws NotYetError or StartupError once patience is at its end.
+  [[nodiscard]] std::optional<SharedBlackboard> look() {
+    const Time now = clock_.now();
+    try {
+      return SharedBlackboard::open(segment_, Role::kHigh, Duration::zero());
+    } catch (const NotYetError&) {
+      if (which_ == Attachment::kFirst && now >= begun_ + kSegmentPatience) {
+        throw;
+      }
+      nothing_seen_ = now;
+    } catch (const StartupError&) {
+      if (now >= nothing_seen_ + kRefusalPatience) {
+        throw;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  SteadyClock clock_;
+  std::string segment_;
+  Attachment which_;
+  Time begun_ = clock_.now();
+  Time nothing_seen_ = begun_;
+};
+
+// Empty when told to stop before there was a segment.
+[[nodiscard]] std::optional<SharedBlackboard> attach(const std::string& segment, Attachment which) {
+  SegmentSearch search{segment, which};
+  auto board = search.look();
+  if (!board) {
+    wait_for_stop([&] {
+      board = search.look();
+      return board.has_value();
+    });
+  }
+  return board;
+}
+
+// Says once that the low level has gone, and once that it is back. Meanwhile nothing is to be done:
+// its values go stale, and stale means neutral.
+class LowLevelWatch {
+ public:
+  explicit LowLevelWatch(const SharedBlackboard& board) : board_{board} {}
+  void look() {
+    if (const bool alive = board_.alive(Role::kLow); alive != alive_) {
+      alive_ = alive;
+      spdlog::warn(alive ? "lodesman-low is back"
+                         : "lodesman-low is gone: neutral until it is back");
+    }
+  }
+
+ private:
+  const SharedBlackboard& board_;
+  bool alive_ = true;
+};
+
+// The threads of the tasks, and who notices when one of them hangs.
+struct RunningTasks {
+  RunningTasks(std::span<const TaskEntry> tasks, SharedBlackboard& board)
+      : health{*board, tasks, SteadyClock{}.now()},
+        runner{tasks, board.writable(), Role::kHigh, end_without} {}
+
+  HealthWatch health;
+  RealtimeRunner runner;
+};
+
+// Runs the high level on one segment until a stop is asked for or a new low level has made another.
+void sail(SharedBlackboard& board, const HighLevelOptions& options,
+          const CommandSocketSettings& settings) {
+  HighLevel high{board.writable(), Role::kHigh, options};
+  const WayIn way_in{board.writable(), settings};
+  const auto tasks = high.tasks();
+  // Stopped, its tasks leave all safe; they go on where they stood.
+  std::optional<RunningTasks> running;
+  running.emplace(tasks, board);
+  LowLevelWatch low{board};
+  wait_for_stop([&] {
+    low.look();
+    if (const bool silent = launcher_is_silent(); silent && running) {
+      running.reset();
+      spdlog::warn("the launcher has fallen silent: neutral until it is heard again");
+    } else if (!silent && !running) {
+      running.emplace(tasks, board);
+    }
+    if (running) {
+      say_what_hangs(running->health);
+    }
+    return board.is_superseded();
+  });
+}
+
+// What the mission was is told to the new segment as if it had been there all along, so that the
+// planner finds there what every restarted one finds: an abort stands, and nothing sails by itself.
+void hand_on(const std::optional<Stamped<MissionStatus>>& mission, SharedBlackboard& board) {
+  if (mission) {
+    Writer<MissionStatus>{board.writable().mission_status, Role::kHigh, "mission_status"}.publish(
+        mission->value, mission->stamp);
+  }
+}
+
+int run(const ProcessOptions& options, bool start_by_itself) {
+  const TomlDocument configuration = load_whole_configuration(options.configuration_file);
+  const Scenario scenario = load_named_scenario(options.scenario_file);
+  HighLevelOptions high_options = high_level_options(configuration, scenario);
+  high_options.planner.start_by_itself = start_by_itself;
+  const auto settings = command_socket_settings(configuration);
+  // lodesman-low, which has the same rights, warns if they are missing.
+  (void)set_up_realtime();
+  auto board = attach(options.segment, Attachment::kFirst);
+  if (board) {
+    report_what_was_found(*board);
+  }
+  while (board) {
+    sail(*board, high_options, settings);
+    if (stop_asked()) {
+      break;
+    }
+    const auto mission = last_mission(*board);
+    high_options.planner.start_by_itself &= !mission || mission->value.started == Time{};
+    spdlog::warn("a new lodesman-low has made segment {} anew: beginning anew on it",
+                 options.segment);
+    board.reset();
+    board = attach(options.segment, Attachment::kAgain);
+    if (board) {
+      hand_on(mission, *board);
+    }
+  }
+  return kExitDone;
+}
+
+}  // namespace
+}  // namespace lodesman
+
+int main(int argc, char** argv) {
+  lodesman::block_stop_signals();
+  lodesman::log_without_blocking();
+  CLI::App app{"The high level: estimator, re-planner, guidance, control and mission",
+               "lodesman-high"};
+  lodesman::ProcessOptions options;
+  lodesman::add_process_options(app, options);
+  bool start_by_itself = false;
+  app.add_flag("--start", start_by_itself, "Start the mission without an operator's word");
+  spdlog::set_level(spdlog::level::warn);
+  return lodesman::process_main(app, argc, argv,
+                                [&] { return lodesman::run(options, start_by_itself); });
+}

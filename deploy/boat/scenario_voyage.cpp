@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/boat/scenario_voyage.h"
+
+#include <array>
+#include <cmath>
+
+#include "deploy/boat/configuration.h"
+#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/voyage.h"
+#include "hal_sim/campaign/encounter.h"
+
+namespace lodesman {
+namespace fs = std::filesystem;
+
+fs::path scenario_file(const std::string& name_or_path) {
+  const std::array directories{share_directory() / "hal_sim" / "scenarios"};
+  return find_scenario(name_or_path, directories);
+}
+
+VesselParameters load_vessel_parameters() { return load_vessel(config_file("vessel.toml")); }
+
+Scenario load_named_scenario(const std::string& name_or_path) {
+  if (const auto number = encounter_number(name_or_path)) {
+    return read_scenario(TomlDocument::from_text(encounter_scenario(*number), name_or_path),
+                         load_vessel_parameters());
+  }
+  return load_scenario(scenario_file(name_or_path), load_vessel_parameters());
+}
+
+Scenario with_planned_zones(Scenario scenario, const HighLevelOptions& options) {
+  if (!options.planner.replanner.pilot) {
+    return scenario;
+  }
+  const PilotOptions& pilot = *options.planner.replanner.pilot;
+  const double speed_m_s = pilot.response.speed_max_m_s;
+  for (MovingObstacle& obstacle : scenario.obstacles) {
+    const bool slow = std::hypot(obstacle.velocity_x_m_s, obstacle.velocity_y_m_s) <=
+                      pilot.zones.slow_share * speed_m_s;
+    put_zone(obstacle.at_start, slow ? sure_zone_m(pilot.zones, speed_m_s) : 0.0);
+  }
+  return scenario;
+}
+
+}  // namespace lodesman

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scenario that a simulated boat sails. One thread, at start-up; everything that is wrong
+// throws StartupError.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "hal_sim/scenario/scenario.h"
+#include "high_level/tasks/high_level.h"
+
+namespace lodesman {
+
+// By path, or by the name of a shipped scenario.
+[[nodiscard]] Scenario load_named_scenario(const std::string& name_or_path);
+[[nodiscard]] std::filesystem::path scenario_file(const std::string& name_or_path);
+[[nodiscard]] VesselParameters load_vessel_parameters();
+
+// The scenario with the zones that are planned with: its own, or those that the pilot makes round
+// what it gives a zone to and is sure of.
+[[nodiscard]] Scenario with_planned_zones(Scenario scenario, const HighLevelOptions& options);
+
+}  // namespace lodesman

@@ -1,7 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-// The version that programs and results name. Any thread.
-#pragma once
-
-namespace lodesman::cli {
-inline constexpr const char* kVersion = LODESMAN_VERSION;
-}  // namespace lodesman::cli

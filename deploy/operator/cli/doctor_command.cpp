@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/operator/cli/doctor_command.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "deploy/operator/cli/common_options.h"
+#include "deploy/operator/doctor/diagnosis.h"
+#include "deploy/operator/doctor/machine.h"
+
+namespace lodesman::cli {
+namespace {
+
+[[nodiscard]] int doctor(const CommonOptions& options) {
+  using Json = nlohmann::ordered_json;
+  const std::vector<Finding> findings = judge(measure_machine(options));
+  const bool bad = any_bad(findings);
+  if (options.json) {
+    Json list = Json::array();
+    for (const Finding& finding : findings) {
+      list.push_back(finding.to_json());
+    }
+    const Json document{{"ok", !bad}, {"findings", std::move(list)}};
+    fmt::print("{}\n", document.dump(-1, ' ', false, Json::error_handler_t::replace));
+  } else {
+    for (const Finding& finding : findings) {
+      // What needs doing is said even to those who want quiet.
+      if (!options.quiet || finding.verdict >= Verdict::kWarn) {
+        fmt::print("{}\n", finding.line());
+      }
+    }
+  }
+  return bad ? kExitFault : kExitDone;
+}
+
+}  // namespace
+
+void add_doctor_command(CLI::App& root, int& exit_status) {
+  const auto options = std::make_shared<CommonOptions>();
+  CLI::App* command =
+      root.add_subcommand("doctor", "What this machine lacks, with the command that mends it");
+  add_common_options(*command, *options);
+  command->footer("Example: lodesman doctor\n\nExit status 4 where something is bad.");
+  command->callback([options, &exit_status] { exit_status = doctor(*options); });
+}
+
+}  // namespace lodesman::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// lodesman: the operator's command.
+#include <CLI/CLI.hpp>
+
+#include "deploy/boat/process_main.h"
+#include "deploy/boat/version.h"
+#include "deploy/operator/cli/check_command.h"
+#include "deploy/operator/cli/doctor_command.h"
+#include "deploy/operator/cli/operator_commands.h"
+#include "deploy/operator/cli/plan_command.h"
+#include "deploy/operator/cli/segment_command.h"
+#include "deploy/operator/cli/sim_command.h"
+#include "deploy/operator/cli/watch_command.h"
+
+int main(int argc, char** argv) {
+  namespace cli = lodesman::cli;
+  lodesman::unblock_signals();
+  CLI::App app{"Sees underwater obstacles with a forward-looking sonar and steers round them",
+               "lodesman"};
+  app.set_version_flag("--version", lodesman::kVersion);
+  app.require_subcommand(1);
+  int exit_status = 0;
+  cli::add_sim_command(app, exit_status);
+  cli::add_operator_commands(app, exit_status);
+  cli::add_segment_command(app, exit_status);
+  cli::add_plan_command(app, exit_status);
+  cli::add_check_command(app, exit_status);
+  cli::add_watch_command(app, exit_status);
+  cli::add_doctor_command(app, exit_status);
+  return lodesman::process_main(app, argc, argv, [&] { return exit_status; });
+}

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/operator/cli/segment_command.h"
+#include "deploy/boat/level_options.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deploy/boat/configuration.h"
+#include "deploy/operator/cli/common_options.h"
+#include "deploy/operator/cli/number_options.h"
+#include "low_level/path/path_finder.h"
+#include "low_level/sonar/ping_image.h"
+#include "low_level/sonar/protection.h"
+#include "low_level/sonar/segmentation.h"
+#include "low_level/sonar/view_image.h"
+#include "mid_level/base/heading.h"
+#include "mid_level/base/startup_error.h"
+
+namespace lodesman::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct SegmentOptions {
+  CommonOptions common;
+  std::vector<std::string> images;
+  double range_m = 0.0;
+  double sector_deg = 0.0;
+  bool fan = false;
+  bool apex_at_bottom = true;
+  std::optional<std::array<double, 2>> apex_px;  // column and row
+  double radius_px = 0.0;                        // 0: the image's height
+  std::string overlay_dir;
+  std::optional<std::array<double, 2>> plan_m;  // x and y
+  double threshold = 0.0;                       // 0: the configuration's
+};
+
+// What a goal, or the head's pixel outside an image, may lie away at most.
+constexpr double kFar_m = 1e4;
+constexpr double kFar_px = 1e5;
+
+// What the vehicle would do with the same configuration.
+DeltaTOptions configured(const SegmentOptions& options) {
+  const TomlDocument document = load_configuration("default", options.common);
+  DeltaTOptions delta_t = read_low_level_options(document.root()).delta_t;
+  if (options.threshold > 0.0) {
+    delta_t.segmentation.threshold = options.threshold;
+  }
+  return delta_t;
+}
+
+// The frames of one call, one after another, through one Segmenter as on the vehicle.
+class FrameReader {
+ public:
+  explicit FrameReader(const SegmentOptions& options)
+      : options_{options}, delta_t_{configured(options)}, segmenter_{delta_t_.segmentation} {}
+
+  // False, and said, where the file holds no frame.
+  [[nodiscard]] bool load(const fs::path& file);
+  // What the frame loaded last shows.
+  Json read(const fs::path& file);
+
+ private:
+  void take(const GreyImage& image, const fs::path& file);
+  void plan(Json& frame);
+  void save_overlay(const fs::path& file);
+
+  const SegmentOptions& options_;
+  DeltaTOptions delta_t_;
+  Segmenter segmenter_;
+  PathFinder path_finder_;
+  // On the heap, because a ping is half a megabyte.
+  std::unique_ptr<SonarPing> ping_ = std::make_unique<SonarPing>();
+  std::unique_ptr<SonarObstacles> obstacles_ = std::make_unique<SonarObstacles>();
+  std::unique_ptr<SonarPath> path_ = std::make_unique<SonarPath>();
+  std::map<std::string, int> overlay_names_;  // how often each has been used
+};
+
+bool FrameReader::load(const fs::path& file) {
+  try {
+    take(read_grey_image(file), file);
+    return true;
+  } catch (const StartupError& error) {
+    std::cerr << error.what() << "\n";
+    return false;
+  }
+}
+
+void FrameReader::take(const GreyImage& image, const fs::path& file) {
+  ping_->number += 1;
+  ping_->range_m = options_.range_m;
+  ping_->sector_rad = to_rad(options_.sector_deg);
+  if (!options_.fan) {
+    polar_to_ping(image, file, *ping_);
+    return;
+  }
+  FanGeometry fan = whole_image_fan(image, options_.apex_at_bottom);
+  if (options_.apex_px) {
+    fan.apex_column_px = (*options_.apex_px)[0];
+    fan.apex_row_px = (*options_.apex_px)[1];
+  }
+  if (options_.radius_px > 0.0) {
+    fan.radius_px = options_.radius_px;
+  }
+  fan_to_ping(image, fan, *ping_);
+}
+
+// An ellipse is the same turned by half a turn: (-90, 90] says it once.
+double half_turn_deg(double rad) {
+  const double deg = to_deg(std::remainder(rad, std::numbers::pi));
+  return deg <= -90.0 ? deg + 180.0 : deg;
+}
+
+Json to_json(const Obstacle& o) {
+  return {{"centre_m", {o.centre_x_m, o.centre_y_m}},
+          {"semi_axes_m", {o.semi_axis_first_m, o.semi_axis_second_m}},
+          {"angle_deg", half_turn_deg(o.angle_rad)},
+          {"protection_semi_axes_m", {o.protection_first_m, o.protection_second_m}},
+          {"range_m", std::hypot(o.centre_x_m, o.centre_y_m)},
+          {"bearing_deg", to_deg(std::atan2(o.centre_x_m, o.centre_y_m))},
+          {"peak", o.peak}};
+}
+
+Json FrameReader::read(const fs::path& file) {
+  segmenter_.segment(*ping_, *obstacles_);
+  if (delta_t_.own_zones) {
+    make_own_zones(*delta_t_.own_zones, *obstacles_);
+  }
+  Json frame{{"file", file.string()}, {"obstacles", Json::array()}};
+  for (std::uint32_t i = 0; i < obstacles_->count; ++i) {
+    frame["obstacles"].push_back(to_json(obstacles_->obstacles[i]));
+  }
+  if (obstacles_->dropped > 0) {
+    frame["dropped"] = obstacles_->dropped;
+  }
+  frame["path_m"] = nullptr;  // nothing was asked for
+  if (options_.plan_m) {
+    plan(frame);
+  }
+  if (!options_.overlay_dir.empty()) {
+    save_overlay(file);
+  }
+  return frame;
+}
+
+void FrameReader::plan(Json& frame) {
+  PathRequest request;
+  request.id = request.frame = ping_->number;
+  request.goal_x_m = (*options_.plan_m)[0];
+  request.goal_y_m = (*options_.plan_m)[1];
+  path_finder_.find_path(*obstacles_, request, options_.range_m, *path_);
+  frame["path_m"] = Json::array();
+  const SonarView view{options_.range_m};
+  for (std::uint32_t i = 0; i < path_->pixel_count; ++i) {
+    const VehiclePoint point = view.to_vehicle(path_->pixels[i]);
+    frame["path_m"].push_back({point.xy_m.x(), point.xy_m.y()});
+  }
+  frame["reason"] = to_string(path_->reason);
+}
+
+void FrameReader::save_overlay(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const int used = ++overlay_names_[stem];
+  const fs::path overlay = fs::path{options_.overlay_dir} /
+                           (stem + (used > 1 ? "-" + std::to_string(used) : "") + ".png");
+  std::string caption = stem + "\n" + std::to_string(obstacles_->count) + " obstacles";
+  ViewPicture picture;
+  picture.range_m = options_.range_m;
+  picture.ping = ping_.get();
+  picture.obstacles = obstacles_.get();
+  if (options_.plan_m) {
+    picture.path = {path_->pixels.data(), path_->pixel_count};
+    picture.goal = VehiclePoint{{(*options_.plan_m)[0], (*options_.plan_m)[1]}};
+    caption += std::string{", path: "} + to_string(path_->reason);
+  }
+  picture.caption = caption;
+  if (!save_png(overlay, picture)) {
+    throw StartupError{overlay.string(), 1, "--overlay", "cannot be written"};
+  }
+}
+
+void print_frame(const Json& frame) {
+  std::cout << frame["file"].get<std::string>() << ": " << frame["obstacles"].size()
+            << " obstacles\n";
+  for (const Json& o : frame["obstacles"]) {
+    std::array<char, 128> line{};
+    std::snprintf(line.data(), line.size(),
+                  "  %7.2f m %+7.2f deg  %5.2f x %5.2f m at %+4.0f deg  peak %3.0f\n",
+                  o["range_m"].get<double>(), o["bearing_deg"].get<double>(),
+                  o["semi_axes_m"][0].get<double>(), o["semi_axes_m"][1].get<double>(),
+                  o["angle_deg"].get<double>(), o["peak"].get<double>());
+    std::cout << line.data();
+  }
+  if (frame.contains("reason")) {
+    std::cout << "  path: " << frame["reason"].get<std::string>() << ", " << frame["path_m"].size()
+              << " pixels\n";
+  }
+}
+
+void show_progress(const SegmentOptions& options, std::size_t done) {
+  constexpr std::size_t kMany = 4;
+  const std::size_t all = options.images.size();
+  if (options.common.quiet || all < kMany) {
+    return;
+  }
+  const bool terminal = isatty(STDERR_FILENO) == 1;
+  if (terminal) {
+    std::cerr << "\rsegment: " << done << "/" << all << (done == all ? "\n" : "") << std::flush;
+  } else if (done == all || done % 100 == 0) {
+    std::cerr << "segment: " << done << "/" << all << "\n";
+  }
+}
+
+// A file that holds no frame is named, and the others are read all the same.
+[[nodiscard]] int segment(const SegmentOptions& options) {
+  if (!options.overlay_dir.empty()) {
+    std::error_code error;
+    fs::create_directories(options.overlay_dir, error);
+    if (error) {
+      throw StartupError{options.overlay_dir, 1, "--overlay", error.message()};
+    }
+  }
+  FrameReader reader{options};
+  Json frames = Json::array();
+  int exit_status = kExitDone;
+  for (std::size_t i = 0; i < options.images.size(); ++i) {
+    const std::string& image = options.images[i];
+    if (reader.load(image)) {
+      frames.push_back(reader.read(image));
+    } else {
+      exit_status = kExitRefused;
+    }
+    show_progress(options, i + 1);
+  }
+  if (frames.empty()) {
+    return exit_status;
+  }
+  if (options.common.json) {
+    std::cout << Json{{"frames", std::move(frames)}}.dump(-1, ' ', false,
+                                                          Json::error_handler_t::replace)
+              << "\n";
+  } else if (!options.common.quiet) {
+    for (const Json& frame : frames) {
+      print_frame(frame);
+    }
+  }
+  return exit_status;
+}
+
+// CLI11 owns its subcommands, so the options live and die with theirs.
+class SegmentCommand : public CLI::App {
+ public:
+  explicit SegmentCommand(int& exit_status)
+      : CLI::App{"Find obstacles in sonar frames", "segment"}, exit_status_{exit_status} {
+    add_common_options(*this, options_.common);
+    add_input_options();
+    add_option("--overlay", options_.overlay_dir, "Draw what was found into this directory")
+        ->type_name("DIR");
+    add_pair_option(*this, "--plan", options_.plan_m, -kFar_m, kFar_m,
+                    "Find a path to this goal in the vehicle frame")
+        ->type_name("X,Y");
+    add_option("--threshold", options_.threshold, "Echo strength from which a bin is bright")
+        ->check(number_from(1.0, 255.0));
+    footer("Example:\n  lodesman segment frames/*.pgm --range-m 30 --sector-deg 120 --json");
+    callback([this] { run(); });
+  }
+
+ private:
+  void add_input_options() {
+    add_option("IMAGE", options_.images, "8-bit PGM, PNG or JPEG frames")->required();
+    add_option("--range-m", options_.range_m, "Range setting of the sonar")
+        ->required()
+        ->check(number_from(0.1, 300.0));
+    add_option("--sector-deg", options_.sector_deg, "Sector that the frames show")
+        ->required()
+        ->check(number_from(1.0, 180.0));
+    add_option("--layout", layout_,
+               "polar: a column a beam, row 0 nearest; fan: as displayed, range as the distance "
+               "from the apex")
+        ->check(CLI::IsMember({"polar", "fan"}))
+        ->capture_default_str();
+    add_option("--apex", apex_, "fan: where the head is; with top, range grows downwards")
+        ->check(CLI::IsMember({"top", "bottom"}))
+        ->capture_default_str();
+    add_pair_option(*this, "--apex-px", options_.apex_px, -kFar_px, kFar_px,
+                    "fan: the head's pixel; default: the middle of the bottom (or top) row")
+        ->type_name("COLUMN,ROW");
+    add_option("--radius-px", options_.radius_px,
+               "fan: pixels from the apex to full range; default: the image's height")
+        ->check(number_from(1.0, 1e5));
+  }
+
+  void run() {
+    options_.fan = layout_ == "fan";
+    options_.apex_at_bottom = apex_ == "bottom";
+    exit_status_ = segment(options_);
+  }
+
+  int& exit_status_;
+  SegmentOptions options_;
+  std::string layout_ = "polar";
+  std::string apex_ = "bottom";
+};
+
+}  // namespace
+
+void add_segment_command(CLI::App& root, int& exit_status) {
+  root.add_subcommand(std::make_shared<SegmentCommand>(exit_status));
+}
+
+}  // namespace lodesman::cli

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/operator/cli/sim_command.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+#include "deploy/boat/configuration.h"
+#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/simulation.h"
+#include "deploy/boat/stop_signals.h"
+#include "deploy/boat/version.h"
+#include "deploy/operator/cli/common_options.h"
+#include "deploy/operator/cli/number_options.h"
+#include "deploy/operator/cli/view_saver.h"
+#include "deploy/operator/report/output_file.h"
+#include "deploy/operator/report/plan_story.h"
+#include "deploy/operator/report/plots.h"
+#include "deploy/operator/report/run_files.h"
+#include "deploy/operator/run/lockstep_run.h"
+#include "deploy/operator/run/progress.h"
+#include "deploy/operator/run/realtime_run.h"
+#include "deploy/operator/run/run_directory.h"
+#include "deploy/operator/watch/find_segment.h"
+#include "hal_sim/campaign/encounter.h"
+
+namespace lodesman::cli {
+namespace {
+namespace fs = std::filesystem;
+
+struct SimOptions {
+  CommonOptions common;
+  std::string scenario;
+  std::string profile = "default";
+  std::string out;
+  std::optional<std::uint64_t> seed;
+  std::optional<double> time_limit_s;
+  bool force = false;
+  bool lockstep = false;
+  bool no_images = false;
+  bool wait_start = false;
+  std::string console = "off";
+};
+
+[[nodiscard]] fs::path run_directory(const SimOptions& options, const Scenario& scenario) {
+  if (!options.out.empty()) {
+    return make_named_directory(options.out, options.force);
+  }
+  const std::time_t now = std::time(nullptr);
+  return make_new_directory(fs::path{"runs"} /
+                            fmt::format("{:%Y%m%dT%H%M%SZ}-{}", fmt::gmtime(now), scenario.name));
+}
+
+[[nodiscard]] std::string read_text(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream{file, std::ios::binary}.rdbuf();
+  return text.str();
+}
+
+[[nodiscard]] int exit_status_of(const RunResult& result) noexcept {
+  if (result.outcome == "fault") {
+    return kExitFault;
+  }
+  if (result.collided) {
+    return kExitCollision;
+  }
+  return result.reached ? kExitDone : kExitNoGoal;
+}
+
+[[nodiscard]] std::string metres_or_none(const std::optional<double>& value) {
+  return value ? fmt::format("{:.2f} m", *value) : "none";
+}
+
+void print_summary(const RunRecord& record, const fs::path& directory, bool images) {
+  const RunResult& r = record.result;
+  if (!r.fault.empty()) {
+    fmt::print(stderr, "fault: {}\n", r.fault);
+  }
+  fmt::print("{} ({}, {}): {} after {:.1f} s, {:.2f} m from the goal\n", r.scenario, r.profile,
+             r.mode, r.outcome, r.time_s, r.goal_error_m);
+  fmt::print("smallest inoffensive distance {}, hull clearance {}\n",
+             metres_or_none(r.min_inoffensive_distance_m), metres_or_none(r.min_hull_clearance_m));
+  std::string reasons;
+  for (const auto& [reason, count] : r.plan_reasons) {
+    reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
+  }
+  fmt::print("{} plans ({})", r.plans, reasons);
+  fmt::print("; side changed {} times", r.side_flips);
+  if (r.first_side_flip_s) {
+    fmt::print(", first at {:.1f} s", *r.first_side_flip_s);
+  }
+  if (r.truths_missed > 0 || r.plans_missed > 0) {
+    fmt::print("\nheld up: {} states of the world and {} plans are not in the files",
+               r.truths_missed, r.plans_missed);
+  }
+  fmt::print("\nrun directory: {}\n", directory.string());
+  if (images) {
+    for (const char* picture : {"world", "inoffensive_distance", "heading", "thrust"}) {
+      fmt::print("  {}\n", (directory / (std::string{picture} + ".png")).string());
+    }
+    fmt::print("  {}\n", (directory / "sonar").string());
+  }
+}
+
+// What a run writes while it goes on. What cannot be written is said once, and the run goes on.
+class RunOutput {
+ public:
+  RunOutput(const SimOptions& options, const TomlDocument& configuration, const Scenario& scenario,
+            const fs::path& directory)
+      : files_{directory}, line_{scenario, options.common.quiet} {
+    if (!options.no_images) {
+      views_.emplace(directory, simulation_settings(configuration).sonar_view_period,
+                     scenario.sonar.range_m);
+    }
+  }
+
+  void show(const RunProgress& progress) {
+    if (progress.notice && progress.notice->t_s > noticed_s_) {
+      noticed_s_ = progress.notice->t_s;
+      line_.say(fmt::format("{:.1f} s: {}", noticed_s_, progress.notice->text));
+    }
+    line_.show(progress);
+  }
+  void add(const TrajectoryRow& row) {
+    files_.add(row);
+    note(files_.fault());
+  }
+  void add(const Blackboard& board, const Plan& plan, const SonarPath* path,
+           const PlanRecord& record) {
+    files_.add(record);
+    note(files_.fault());
+    if (views_) {
+      views_->save(board, plan, path, record);
+      note(views_->fault());
+    }
+    if (const std::string news = story_.news(record); !news.empty()) {
+      line_.say(news);
+    }
+  }
+  // result.json, then the pictures.
+  void finish(const fs::path& directory, const RunRecord& record) {
+    files_.finish(record.result);
+    note(files_.fault());
+    if (!views_) {
+      return;
+    }
+    try {
+      draw_pictures(directory, record);
+    } catch (const StartupError& error) {
+      note(error.what());
+    }
+  }
+  // Whether all of it could be written, what was said included.
+  [[nodiscard]] bool is_whole() const noexcept { return !lost_ && !line_.failed(); }
+
+ private:
+  void note(const std::string& fault) {
+    if (!fault.empty() && !lost_) {
+      lost_ = true;
+      line_.warn(fault);
+    }
+  }
+
+  RunFiles files_;
+  ProgressLine line_;
+  PlanStory story_;
+  double noticed_s_ = 0.0;
+  std::optional<ViewSaver> views_;
+  bool lost_ = false;
+};
+
+[[nodiscard]] RunRecord run(const SimOptions& options, const TomlDocument& configuration,
+                            const Scenario& scenario, const fs::path& directory,
+                            RunOutput& output) {
+  const auto on_plan = [&](const Blackboard& board, const Plan& plan, const SonarPath* path,
+                           const PlanRecord& record) { output.add(board, plan, path, record); };
+  const auto on_row = [&](const TrajectoryRow& row) { output.add(row); };
+  const std::function<bool()> interrupted = stop_caught;
+  const std::function<void(const RunProgress&)> show = [&](const RunProgress& progress) {
+    output.show(progress);
+  };
+  if (options.lockstep) {
+    return run_lockstep({configuration, scenario, interrupted, show, on_plan, {}, on_row});
+  }
+  return run_realtime({directory / "config.toml", directory / "scenario.toml", configuration,
+                       scenario, options.wait_start, interrupted, show, on_plan, on_row});
+}
+
+[[nodiscard]] int simulate(const SimOptions& options) {
+  const TomlDocument configuration = load_configuration(options.profile, options.common);
+  Scenario scenario = load_named_scenario(options.scenario);
+  scenario.seed = options.seed.value_or(scenario.seed);
+  scenario.time_limit_s = options.time_limit_s.value_or(scenario.time_limit_s);
+  require_devices(configuration, scenario);
+  const auto number = encounter_number(options.scenario);
+  const std::string scenario_text =  // before it may be overwritten
+      number ? encounter_scenario(*number) : read_text(scenario_file(options.scenario));
+  // Nothing is refused any more: now there may be files.
+  const fs::path directory = run_directory(options, scenario);
+  write_whole_file(directory / "config.toml", configuration.to_text());
+  write_whole_file(directory / "scenario.toml", scenario_text);
+
+  catch_stop_signals();
+  remove_dead_runs();
+  RunOutput output{options, configuration, scenario, directory};
+  RunRecord record = run(options, configuration, scenario, directory, output);
+  record.result.scenario = scenario.name;
+  record.result.profile = options.profile;
+  record.result.seed = static_cast<std::int64_t>(scenario.seed);
+  record.result.version = kVersion;
+  if (stop_caught() && !record.result.reached && record.result.outcome != "fault") {
+    record.result.outcome = record.result.collided ? "collision" : "aborted";
+  }
+  output.finish(directory, record);
+  if (options.common.json) {
+    fmt::print("{}", result_json(record.result));
+  } else if (!options.common.quiet) {
+    print_summary(record, directory, !options.no_images);
+  }
+  return output.is_whole() ? exit_status_of(record.result) : kExitFault;
+}
+
+void add_options(CLI::App& command, SimOptions& options) {
+  command.add_option("scenario", options.scenario, "A scenario file, or the name of a shipped one")
+      ->required()
+      ->type_name("SCENARIO");
+  command.add_flag("--lockstep", options.lockstep,
+                   "One thread on a virtual clock: deterministic, as fast as the machine allows");
+  command.add_option("--profile", options.profile, "default, or paper: as the paper did it")
+      ->check(CLI::IsMember({"default", "paper"}));
+  command.add_option("--out", options.out, "Run directory [runs/<UTC time>-<scenario>]")
+      ->type_name("DIR");
+  command.add_flag("--force", options.force, "Into a directory that holds a run: writes over it");
+  add_seed_option(command, options.seed);
+  command.add_option("--time-limit", options.time_limit_s, "Instead of the scenario's")
+      ->type_name("S")
+      ->check(number_from(1.0, 1e6));
+  command.add_flag("--no-images", options.no_images, "Neither sonar views nor plots");
+  command.add_flag("--wait-start", options.wait_start, "Wait for `lodesman start`");
+  command.add_option("--console", options.console, "off")->check(CLI::IsMember({"off"}));
+  add_common_options(command, options.common);
+}
+
+}  // namespace
+
+void add_sim_command(CLI::App& root, int& exit_status) {
+  const auto options = std::make_shared<SimOptions>();
+  CLI::App* command = root.add_subcommand("sim", "Sail a scenario on simulated devices");
+  add_options(*command, *options);
+  command->footer(
+      "Example: lodesman sim paper-static --profile paper --lockstep\n\nFaults that a "
+      "scenario may name:\n" +
+      fault_kinds_help());
+  command->callback([options, &exit_status] { exit_status = simulate(*options); });
+}
+
+}  // namespace lodesman::cli

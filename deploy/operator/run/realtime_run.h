@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// A whole run in real time: starts lodesman-low and lodesman-high on a segment of their own, looks
+// on, and stops them in order. The caller's thread.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "deploy/boat/scenario_voyage.h"
+#include "deploy/operator/run/watcher.h"
+
+namespace lodesman::cli {
+
+struct RealtimeRun {
+  std::filesystem::path configuration_file;  // resolved: one file with every key
+  std::filesystem::path scenario_file;
+  const TomlDocument& configuration;
+  const Scenario& scenario;
+  bool wait_start = false;  // for an operator's start, instead of starting by itself
+  const std::function<bool()>& interrupted;
+  const std::function<void(const RunProgress&)>& show;
+  std::function<void(const Blackboard&, const Plan&, const SonarPath*, const PlanRecord&)> on_plan;
+  // For each row of the trajectory; may be empty.
+  std::function<void(const TrajectoryRow&)> on_row = {};
+};
+
+// A process that dies or falls silent is named in the record's `fault`, and the other one is
+// stopped. Throws StartupError where a process refuses what it was given, and has said so.
+[[nodiscard]] RunRecord run_realtime(const RealtimeRun& run);
+
+}  // namespace lodesman::cli
