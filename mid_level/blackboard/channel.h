@@ -41,6 +41,10 @@ static_assert(std::atomic<std::uint64_t>::is_always_lock_free &&
               std::atomic<std::int64_t>::is_always_lock_free &&
               std::atomic<std::uint32_t>::is_always_lock_free);
 
+// Not reached by counting: a head that announces more is wrong. Below it a number and its double
+// never wrap, so that one value after another comes to an end.
+inline constexpr std::uint64_t kLastSequence = std::uint64_t{1} << 62U;
+
 // Which program writes a channel; stored in the channel as its writer's claim.
 enum class Role : std::uint32_t { kNobody = 0, kLow = 1, kHigh = 2, kOperator = 3 };
 
@@ -96,10 +100,6 @@ class Channel {
            slots[newest % kDepth].version.load(std::memory_order_acquire) >= 2 * newest &&
            (claim == 0 || claim == static_cast<std::uint32_t>(writer));
   }
-
- private:
-  static constexpr std::uint64_t kLastSequence = std::uint64_t{1}
-                                                 << 62U;  // not reached by counting
 };
 
 // The one writer of a channel: made once, before the tasks run.
@@ -261,8 +261,10 @@ class Reader {
     return held || take(sequence) == Taken::kWhole ? held_.get() : nullptr;
   }
 
+  // 0 as long as there was none, or where the head is wrong.
   [[nodiscard]] std::uint64_t newest_sequence() const noexcept {
-    return head_->newest.load(std::memory_order_acquire);
+    const std::uint64_t newest = head_->newest.load(std::memory_order_acquire);
+    return newest <= kLastSequence ? newest : 0;
   }
   [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
   // How many values were passed over because they were not sane.

@@ -146,6 +146,28 @@ TEST_CASE("reader: a spoilt head is mended by the next publication", "[mid_level
   }
 }
 
+TEST_CASE("reader: one after the other comes to an end whatever the head announces",
+          "[mid_level][blackboard]") {
+  for (const std::uint64_t newest : {~std::uint64_t{0}, ~std::uint64_t{0} - 3,
+                                     std::uint64_t{1} << 63U, kLastSequence + 1, kLastSequence}) {
+    Channelful made;
+    while (made.reader.next() != nullptr) {
+    }
+    // Every place holds what would be whole, were that number right.
+    for (std::uint64_t back = 0; back < 8; ++back) {
+      made.slot(newest - back).version = 2 * (newest - back);
+      made.slot(newest - back).bytes = sizeof(HelmCommand);
+    }
+    made.channel->head.newest = newest;
+    int values = 0;
+    while (values < 100 && made.reader.next() != nullptr) {
+      ++values;
+    }
+    CHECK(values <= 8);
+    CHECK(made.latest() <= 4);
+  }
+}
+
 TEST_CASE("reader: one that was led far ahead begins anew", "[mid_level][blackboard]") {
   Channelful made;
   constexpr std::uint64_t kFar = (std::uint64_t{1} << 40) + 5;  // a forged value in the fifth slot
