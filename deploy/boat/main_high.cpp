@@ -12,6 +12,7 @@
 #include "deploy/boat/log.h"
 #include "deploy/boat/process_main.h"
 #include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/version.h"
 #include "deploy/boat/voyage.h"
 #include "high_level/mission/command_socket.h"
 #include "high_level/mission/token_file.h"
@@ -216,6 +217,7 @@ int main(int argc, char** argv) {
   lodesman::log_without_blocking();
   CLI::App app{"The high level: estimator, re-planner, guidance, control and mission",
                "lodesman-high"};
+  app.set_version_flag("--version", lodesman::kVersion);
   lodesman::ProcessOptions options;
   lodesman::add_process_options(app, options);
   bool start_by_itself = false;

@@ -8,6 +8,7 @@
 #include "deploy/boat/process_main.h"
 #include "deploy/boat/scenario_voyage.h"
 #include "deploy/boat/simulation.h"
+#include "deploy/boat/version.h"
 #include "mid_level/base/clock.h"
 #include "mid_level/blackboard/segment.h"
 #include "mid_level/runtime/realtime_rights.h"
@@ -47,6 +48,7 @@ int main(int argc, char** argv) {
   lodesman::block_stop_signals();
   lodesman::log_without_blocking();
   CLI::App app{"The low level: devices, sonar, path finder and thrusters", "lodesman-low"};
+  app.set_version_flag("--version", lodesman::kVersion);
   lodesman::ProcessOptions options;
   lodesman::add_process_options(app, options);
   return lodesman::process_main(app, argc, argv, [&] { return lodesman::run(options); });

@@ -46,7 +46,7 @@ static_assert(std::atomic<std::uint64_t>::is_always_lock_free &&
 inline constexpr std::uint64_t kLastSequence = std::uint64_t{1} << 62U;
 
 // Which program writes a channel; stored in the channel as its writer's claim.
-enum class Role : std::uint32_t { kNobody = 0, kLow = 1, kHigh = 2, kOperator = 3 };
+enum class Role : std::uint32_t { kNobody = 0, kLow = 1, kHigh = 2 };
 
 // One place of a ring. The value lies in 64-bit atomic words; the version is odd while they change.
 // What each order is for (tests/unit/blackboard/memory_order.cpp takes each away, and fails):

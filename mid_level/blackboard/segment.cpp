@@ -142,7 +142,6 @@ struct SharedBlackboard::Impl {
     header.magic.store(SegmentHeader::kMagic, std::memory_order_relaxed);
     header.layout_hash.store(layout_hash(), std::memory_order_relaxed);
     header.size_bytes.store(region.get_size(), std::memory_order_relaxed);
-    header.creator_pid.store(static_cast<std::uint64_t>(getpid()), std::memory_order_relaxed);
     header.ready.store(SegmentHeader::kReady, std::memory_order_release);
   }
 
@@ -165,8 +164,6 @@ struct SharedBlackboard::Impl {
     if (unfit.empty()) {
       file.make_private();
       free_claims_of(Role::kLow);
-      layout()->header.creator_pid.store(static_cast<std::uint64_t>(getpid()),
-                                         std::memory_order_relaxed);
     }
     return unfit;
   }

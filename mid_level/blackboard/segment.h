@@ -22,7 +22,6 @@ struct SegmentHeader {
   std::atomic<std::uint64_t> magic{0};
   std::atomic<std::uint64_t> layout_hash{0};
   std::atomic<std::uint64_t> size_bytes{0};
-  std::atomic<std::uint64_t> creator_pid{0};  // for people; nothing is decided by it
   std::atomic<std::uint64_t> ready{0};
 };
 

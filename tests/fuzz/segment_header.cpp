@@ -18,7 +18,7 @@ struct Segment {
 
 // The fields of the header, and how many bytes are mapped. The input is laid over the right values
 // by exclusive or, because no input could guess the hash of a build's layout.
-enum Field : std::size_t { kMagic, kLayoutHash, kSizeBytes, kCreator, kReady, kMapped, kFields };
+enum Field : std::size_t { kMagic, kLayoutHash, kSizeBytes, kReady, kMapped, kFields };
 using Changes = std::array<std::uint64_t, kFields>;
 
 }  // namespace
@@ -31,10 +31,8 @@ void segment_header(std::string_view input) {
   header.magic = SegmentHeader::kMagic ^ changes[kMagic];
   header.layout_hash = hash ^ changes[kLayoutHash];
   header.size_bytes = sizeof(Segment) ^ changes[kSizeBytes];
-  header.creator_pid = changes[kCreator];
   header.ready = SegmentHeader::kReady ^ changes[kReady];
   const std::string fault = header_fault(header, sizeof(Segment) ^ changes[kMapped]);
-  changes[kCreator] = 0;  // nothing is decided by it
   require(fault.empty() == (changes == Changes{}), "a header is judged wrongly: " + fault);
 }
 

@@ -16,7 +16,6 @@ constexpr const char* kPlain = "\x1b[0m";
   switch (role) {
     case Role::kLow: return "low";
     case Role::kHigh: return "high";
-    case Role::kOperator: return "operator";
     case Role::kNobody: break;
   }
   return "nobody";

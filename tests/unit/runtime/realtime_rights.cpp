@@ -65,7 +65,7 @@ Verdict verdict_with_fewer_rights() {
   if (line.find(refused_priorities(granted)) == std::string::npos) {
     return kWrongLine;
   }
-  if (sched_getscheduler(0) != SCHED_OTHER) {
+  if (sched_getscheduler(0) == SCHED_FIFO) {
     return kLeftRealtime;
   }
   const auto expected = static_cast<std::uint64_t>(granted);

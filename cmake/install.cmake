@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: Apache-2.0
+# Where things go with `cmake --install`. Programs find what is shared beside themselves, whatever the
+# prefix.
+include(GNUInstallDirs)
+install(TARGETS lodesman lodesman-low lodesman-high RUNTIME)
+install(DIRECTORY deploy/config DESTINATION ${CMAKE_INSTALL_DATADIR}/lodesman/deploy)
+install(DIRECTORY hal_sim/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/lodesman/hal_sim)
+install(DIRECTORY docs/ TYPE DOC)
+install(FILES README.md LICENSE TYPE DOC)
