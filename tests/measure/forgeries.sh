@@ -23,4 +23,4 @@ LODESMAN_FORGERIES=$count timed 'both levels in lock-step' "$count" test_forgeri
   'forgeries: random bytes*'
 LODESMAN_LIVE_FORGERIES=$live timed 'two processes as they sail' "$live" test_live_forgeries \
   'live forgeries:*'
-timed 'not sane, beside a twin without' 'twins' test_forgeries 'forgeries: what is not sane*'
+timed 'not sane, beside a twin without' 'twins' test_forgeries 'forgeries: what is not sane*,forgeries: and so*'
