@@ -19,7 +19,7 @@ namespace lodesman::cli {
 namespace {
 
 constexpr Duration kPollPeriod = std::chrono::milliseconds{20};
-constexpr Duration kShowPeriod = std::chrono::milliseconds{200};
+constexpr Duration kProgressPeriod = std::chrono::milliseconds{200};
 constexpr Duration kSegmentPatience = std::chrono::seconds{5};
 constexpr Duration kStopPatience = std::chrono::seconds{2};
 constexpr double kSilence_s = 1.0;  // so far scenario time may lag behind this program's own
@@ -136,7 +136,7 @@ class TwoProcesses {
       return sails ? "lodesman-low has fallen silent" : "the mission has not begun";
     }
     if (clock.now() >= next_show) {
-      next_show = clock.now() + kShowPeriod;
+      next_show = clock.now() + kProgressPeriod;
       run.show(progress);
     }
   }
