@@ -10,16 +10,16 @@
 namespace lodesman::cli {
 namespace {
 
-using Point = std::array<double, 2>;
+using Place = std::array<double, 2>;
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 // A path that passes something turns about it by half a turn; one that ends beside it by a quarter.
 constexpr double kPassedSweep_rad = std::numbers::pi / 2.0;
 
-double distance(const Point& a, const Point& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
+double distance(const Place& a, const Place& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
 
-Point nearest_on_segment(const Point& a, const Point& b, const Point& to) {
-  const Point along{b[0] - a[0], b[1] - a[1]};
+Place nearest_on_segment(const Place& a, const Place& b, const Place& to) {
+  const Place along{b[0] - a[0], b[1] - a[1]};
   const double squared = along[0] * along[0] + along[1] * along[1];
   const double dot = (to[0] - a[0]) * along[0] + (to[1] - a[1]) * along[1];
   const double share = squared > 0.0 ? std::clamp(dot / squared, 0.0, 1.0) : 0.0;
@@ -28,17 +28,17 @@ Point nearest_on_segment(const Point& a, const Point& b, const Point& to) {
 
 // A wall is passed round the one or the other of its ends, so what counts of it is the place that
 // the path comes nearest to.
-Point wall_point_nearest(const Obstacle& wall, const std::vector<Point>& path) {
+Place wall_point_nearest(const Obstacle& wall, const std::vector<Place>& path) {
   const bool closed = wall.shape == ObstacleShape::kPolygon;
   const std::size_t count = std::min<std::size_t>(wall.vertex_count, kMaxVertices);
   const auto vertex = [&](std::size_t i) {
-    return Point{wall.vertices[i % count].x_m, wall.vertices[i % count].y_m};
+    return Place{wall.vertices[i % count].x_m, wall.vertices[i % count].y_m};
   };
-  Point nearest = vertex(0);
+  Place nearest = vertex(0);
   double nearest_m = distance(nearest, path.front());
   for (std::size_t i = 0; i + (closed ? 0 : 1) < count; ++i) {
-    for (const Point& on_path : path) {
-      const Point candidate = nearest_on_segment(vertex(i), vertex(i + 1), on_path);
+    for (const Place& on_path : path) {
+      const Place candidate = nearest_on_segment(vertex(i), vertex(i + 1), on_path);
       const double candidate_m = distance(candidate, on_path);
       if (candidate_m < nearest_m) {
         nearest = candidate;
@@ -49,7 +49,7 @@ Point wall_point_nearest(const Obstacle& wall, const std::vector<Point>& path) {
   return nearest;
 }
 
-bool is_ahead_and_near(const PlanRecord& plan, const Point& place) {
+bool is_ahead_and_near(const PlanRecord& plan, const Place& place) {
   const double heading_rad = plan.start_heading_deg * kRadPerDeg;
   const double dx_m = place[0] - plan.start_m[0];
   const double dy_m = place[1] - plan.start_m[1];
@@ -60,11 +60,11 @@ bool is_ahead_and_near(const PlanRecord& plan, const Point& place) {
 // [rad] counter-clockwise: how far somebody at `place` turns who watches a boat sail the path.
 // Unlike a cross product at the closest approach it does not depend on the direction of a single
 // step of a path of pixels, nor on which of two equally near pixels is the first.
-double swept_rad(const std::vector<Point>& path, const Point& place) {
+double swept_rad(const std::vector<Place>& path, const Place& place) {
   double sum_rad = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const Point from{path[i - 1][0] - place[0], path[i - 1][1] - place[1]};
-    const Point to{path[i][0] - place[0], path[i][1] - place[1]};
+    const Place from{path[i - 1][0] - place[0], path[i - 1][1] - place[1]};
+    const Place to{path[i][0] - place[0], path[i][1] - place[1]};
     sum_rad += std::atan2(from[0] * to[1] - from[1] * to[0], from[0] * to[0] + from[1] * to[1]);
   }
   return sum_rad;
@@ -78,8 +78,8 @@ PassingSide passing_side(const PlanRecord& plan, const Obstacle& obstacle) {
       (is_wall && obstacle.vertex_count == 0)) {
     return PassingSide::kNone;
   }
-  const Point place = is_wall ? wall_point_nearest(obstacle, plan.path_m)
-                              : Point{obstacle.centre_x_m, obstacle.centre_y_m};
+  const Place place = is_wall ? wall_point_nearest(obstacle, plan.path_m)
+                              : Place{obstacle.centre_x_m, obstacle.centre_y_m};
   if (!is_ahead_and_near(plan, place)) {
     return PassingSide::kNone;
   }
