@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/boat/configuration.h"
 
+#include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "deploy/boat/level_options.h"
+#include "mid_level/config/read_speed_table.h"
 
 namespace lodesman {
 namespace fs = std::filesystem;
@@ -35,19 +38,17 @@ fs::path config_file(const std::string& name) {
 
 namespace {
 
-// Reads every key that any program reads, so that what is left is unknown.
-void require_valid(const TomlDocument& configuration) {
-  (void)read_low_level_options(configuration.root());
-  (void)read_high_level_options(configuration.root());
-  (void)command_socket_settings(configuration);
-  (void)device_addresses(configuration);
-  (void)simulation_settings(configuration);
-  configuration.require_all_keys_read();
+// A word that is no TOML value is meant as a string: --set devices.position=none.
+[[nodiscard]] std::string as_toml(const std::string& set, std::size_t equals) {
+  const std::string value = set.substr(equals + 1);
+  const bool bare = !value.empty() && value.find_first_of(" \t\"'[]{}#=") == std::string::npos &&
+                    value.find_first_not_of("0123456789+-.eE_") != std::string::npos;
+  const bool is_toml_word = value == "true" || value == "false" || value == "inf" ||
+                            value == "nan" || value.starts_with("0x");
+  return bare && !is_toml_word ? set.substr(0, equals + 1) + '"' + value + '"' : set;
 }
 
-}  // namespace
-
-TomlDocument load_configuration(const std::string& profile, const CommonOptions& options) {
+[[nodiscard]] TomlDocument put_together(const std::string& profile, const CommonOptions& options) {
   TomlDocument configuration = TomlDocument::from_file(config_file("default.toml"));
   if (profile != "default") {
     configuration.overlay(TomlDocument::from_file(config_file(profile + ".toml")));
@@ -60,34 +61,67 @@ TomlDocument load_configuration(const std::string& profile, const CommonOptions&
     if (equals == 0 || equals == std::string::npos || set.find('\n') != std::string::npos) {
       throw StartupError("--set", 1, set, "must be SECTION.KEY=VALUE");
     }
-    configuration.overlay(TomlDocument::from_text(set, "--set"));
+    configuration.overlay(TomlDocument::from_text(as_toml(set, equals), "--set"));
   }
-  require_valid(configuration);
   return configuration;
 }
 
-TomlDocument load_whole_configuration(const fs::path& file) {
-  TomlDocument configuration = TomlDocument::from_file(file);
-  require_valid(configuration);
-  return configuration;
-}
-
-CommandSocketSettings command_socket_settings(const TomlDocument& configuration) {
-  const TomlTable table = configuration.root().table("command_socket");
+[[nodiscard]] CommandSocketSettings read_command_socket(const TomlTable& table) {
   return {table.text("address", 64), static_cast<std::uint16_t>(table.integer("port", 0, 65535)),
           table.text("token_file", 4096, 0)};
 }
 
-DeviceAddresses device_addresses(const TomlDocument& configuration) {
-  const TomlTable table = configuration.root().table("devices");
+[[nodiscard]] DeviceAddresses read_devices(const TomlTable& table) {
   return {table.text("heading", 256), table.text("sonar", 256), table.text("position", 256),
           table.text("thrusters", 256)};
 }
 
-SimulationSettings simulation_settings(const TomlDocument& configuration) {
-  const TomlTable table = configuration.root().table("simulation");
-  return {table.duration("lockstep_jitter_s", Range::between(0.0, 0.1)),
+[[nodiscard]] SimulationSettings read_simulation(const TomlTable& table) {
+  return {table.text("scenario", 4096, 0),
+          static_cast<SimulatedVessel>(table.choice("vessel", {"thrust", "estimate"})),
+          table.duration("lockstep_jitter_s", Range::between(0.0, 0.1)),
           table.duration("sonar_view_period_s", Range::between(0.05, 60.0))};
+}
+
+[[nodiscard]] GeoPoint read_origin(const TomlTable& table) {
+  const auto deg = table.pair("deg", Range::between(-180.0, 180.0));
+  if (std::abs(deg[0]) > 85.0) {
+    table.refuse("deg", "latitude must be at least -85 and at most 85");
+  }
+  return {deg[0], deg[1]};
+}
+
+[[nodiscard]] std::optional<PositionSource> read_position_source(const TomlTable& estimator) {
+  const std::size_t word =
+      estimator.choice("position_source", {"truth", "gps", "dead_reckoning", "auto"});
+  return word < 3 ? std::optional{static_cast<PositionSource>(word)} : std::nullopt;
+}
+
+// Every key is read here, whichever part of it the program goes on to use: what is left is unknown.
+[[nodiscard]] BoatConfig read(TomlDocument document) {
+  BoatConfig config{std::move(document)};
+  const TomlTable root = config.document.root();
+  const TomlTable boat = root.table("boat");
+  config.name = boat.text("name", 64);
+  config.segment = boat.text("segment", 64);
+  config.devices = read_devices(root.table("devices"));
+  config.command_socket = read_command_socket(root.table("command_socket"));
+  config.simulation = read_simulation(root.table("simulation"));
+  config.origin = read_origin(root.table("origin"));
+  config.position = read_position_source(root.table("estimator"));
+  config.mission = read_mission_defaults(root.table("mission"));
+  config.speed_limit_m_s = root.table("mission").number("speed_limit_m_s", Range::above(0.0, 10.0));
+  config.speeds = read_speed_table(root.table("vehicle"));
+  config.low = read_low_level_options(root);
+  config.high = read_high_level_options(root, config.speeds);
+  config.document.require_all_keys_read();
+  return config;
+}
+
+}  // namespace
+
+BoatConfig load_configuration(const std::string& profile, const CommonOptions& options) {
+  return read(put_together(profile, options));
 }
 
 }  // namespace lodesman

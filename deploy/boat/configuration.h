@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the shipped files lie, and the configuration put together from profile, overlays and
-// single values. One thread, at start-up; everything that is wrong throws StartupError.
+// The boat's configuration: the shipped defaults, a profile, overlays and single values, read
+// strictly and accounted for key by key in every program. One thread, at start-up; everything that
+// is wrong throws StartupError.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "deploy/boat/program_options.h"
+#include "high_level/tasks/high_level.h"
+#include "low_level/tasks/low_level.h"
+#include "mid_level/base/geodesy.h"
+#include "mid_level/config/read_mission.h"
 #include "mid_level/config/toml_document.h"
 
 namespace lodesman {
@@ -19,33 +26,56 @@ namespace lodesman {
 // A file of deploy/config.
 [[nodiscard]] std::filesystem::path config_file(const std::string& name);
 
-// default.toml, the profile's overlay, the files and values of the command line, in this order.
-// Every key has been read and checked.
-[[nodiscard]] TomlDocument load_configuration(const std::string& profile,
-                                              const CommonOptions& options);
-
-// A file that holds every key, as lodesman-low and lodesman-high are given it: checked as whole as
-// the one above, whichever part of it the program goes on to use.
-[[nodiscard]] TomlDocument load_whole_configuration(const std::filesystem::path& file);
-
-// What the other sections say.
 struct CommandSocketSettings {
   std::string address;
   std::uint16_t port = 0;
   std::string token_file;  // empty: lodesman-high writes one by itself
 };
-[[nodiscard]] CommandSocketSettings command_socket_settings(const TomlDocument& configuration);
+
+// "scheme:rest", or "none" where the device is optional.
 struct DeviceAddresses {
   std::string heading;
   std::string sonar;
   std::string position;
   std::string thrusters;
 };
-[[nodiscard]] DeviceAddresses device_addresses(const TomlDocument& configuration);
+
+// What moves the simulated vessel.
+enum class SimulatedVessel : std::uint8_t {
+  kThrust,    // what its simulated thrusters do
+  kEstimate,  // it is where the real boat takes itself to be
+};
+
 struct SimulationSettings {
+  std::string scenario;  // a file, or the name of a shipped one; empty: no world
+  SimulatedVessel vessel = SimulatedVessel::kThrust;
   Duration lockstep_jitter{};
   Duration sonar_view_period{};
 };
-[[nodiscard]] SimulationSettings simulation_settings(const TomlDocument& configuration);
+
+struct BoatConfig {
+  explicit BoatConfig(TomlDocument read_from) : document{std::move(read_from)} {}
+
+  TomlDocument document;  // for refusals that name file and line
+  std::string name;
+  std::string segment;
+  DeviceAddresses devices;
+  CommandSocketSettings command_socket;
+  SimulationSettings simulation;
+  GeoPoint origin;                         // of the world frame, where no scenario has one
+  std::optional<PositionSource> position;  // empty: what there is
+  MissionDefaults mission;
+  double speed_limit_m_s = 0.0;
+  SpeedTable speeds = SpeedTable::proportional(1.0);
+  LowLevelOptions low;  // what of the levels does not depend on the voyage
+  HighLevelOptions high;
+
+  // As one file that holds every key.
+  [[nodiscard]] std::string to_text() const { return document.to_text(); }
+};
+
+// default.toml, the profile's overlay, the files and values of the command line, in this order.
+[[nodiscard]] BoatConfig load_configuration(const std::string& profile,
+                                            const CommonOptions& options);
 
 }  // namespace lodesman

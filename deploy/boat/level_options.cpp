@@ -82,7 +82,7 @@ namespace {
 
 }  // namespace
 
-HighLevelOptions read_high_level_options(const TomlTable& configuration) {
+HighLevelOptions read_high_level_options(const TomlTable& configuration, const SpeedTable& speeds) {
   HighLevelOptions options;
   const TomlTable planner = configuration.table("planner");
   auto& replanner = options.planner.replanner;
@@ -91,11 +91,13 @@ HighLevelOptions read_high_level_options(const TomlTable& configuration) {
   replanner.waypoint_interval_m = planner.number("waypoint_interval_m", Range::between(0.1, 50.0));
   replanner.previous_path_max_age =
       planner.duration("previous_path_max_age_s", Range::between(0.0, 1e6));
-  const PilotOptions pilot = read_pilot_options(configuration);
+  PilotOptions pilot = read_pilot_options(configuration);
   options.controller.heading_lead_s =
       configuration.table("pilot").number("heading_lead_s", Range::between(0.0, 10.0));
   options.controller.look_ahead_s =
       configuration.table("pilot").number("look_ahead_s", Range::between(0.0, 60.0));
+  pilot.look_ahead_s = options.controller.look_ahead_s;
+  options.controller.look_ahead_m = pilot.response.look_ahead_m;
   if (planner.choice("space", {"world", "sonar_view"}) == 0) {
     replanner.pilot = pilot;
   }
@@ -105,14 +107,15 @@ HighLevelOptions read_high_level_options(const TomlTable& configuration) {
   options.controller.waypoint_radius_m =
       guidance.number("waypoint_radius_m", Range::between(0.05, 20.0));
   options.planner.mission.waypoint_radius_m = options.controller.waypoint_radius_m;
+  options.planner.mission.speeds = speeds;
   const TomlTable control = configuration.table("control");
   options.controller.heading_gain_per_deg =
       control.number("heading_gain_per_deg", Range::above(0.0, 100.0));
   const TomlTable estimator = configuration.table("estimator");
   auto& reckoning = options.estimator.dead_reckoning;
   reckoning.step = estimator.duration("dead_reckoning_step_s", Range::between(0.01, 1.0));
-  reckoning.speed_per_surge_ref_m_s =
-      estimator.number("speed_per_surge_ref_m_s", Range::above(0.0, 1.0));
+  const double k_m_s = estimator.number("speed_per_surge_ref_m_s", Range::between(0.0, 1.0));
+  reckoning.speeds = k_m_s > 0.0 ? SpeedTable::proportional(k_m_s) : speeds;
   options.estimator.surge_lag = estimator.duration("surge_lag_s", Range::between(0.0, 100.0));
   options.estimator.current_time =
       estimator.duration("current_time_s", Range::between(0.0, 1000.0));

@@ -8,13 +8,14 @@
 
 namespace lodesman {
 
-// Reads [segmentation], [zones] and [tracks]; scene and range come from elsewhere.
+// Reads [segmentation], [zones] and [tracks]; the scene comes from elsewhere.
 [[nodiscard]] LowLevelOptions read_low_level_options(const TomlTable& configuration);
 // The table [segmentation] alone.
 [[nodiscard]] SegmentationOptions read_segmentation_options(const TomlTable& table);
 
 // Reads [planner], [zones], [pilot], [vehicle], [progress], [guidance], [control] and [estimator];
-// mission, start, origin, range and speed come from elsewhere.
-[[nodiscard]] HighLevelOptions read_high_level_options(const TomlTable& configuration);
+// position source, start and origin come from elsewhere. `speeds`: the boat's own.
+[[nodiscard]] HighLevelOptions read_high_level_options(const TomlTable& configuration,
+                                                       const SpeedTable& speeds);
 
 }  // namespace lodesman

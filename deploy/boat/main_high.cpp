@@ -7,12 +7,10 @@
 #include <span>
 #include <string>
 
-#include "deploy/boat/configuration.h"
+#include "deploy/boat/assembled_boat.h"
 #include "deploy/boat/exit_status.h"
 #include "deploy/boat/log.h"
 #include "deploy/boat/process_main.h"
-#include "deploy/boat/scenario_voyage.h"
-#include "deploy/boat/version.h"
 #include "deploy/boat/voyage.h"
 #include "high_level/mission/command_socket.h"
 #include "high_level/mission/token_file.h"
@@ -30,17 +28,19 @@ constexpr Duration kRefusalPatience = std::chrono::milliseconds{300};
 
 enum class Attachment : std::uint8_t { kFirst, kAgain };
 
-// The operator's way in: the desk, the socket before it, and the token that opens it, which is
-// given or made for this run.
+// The operator's way in: the desk, the socket before it, and the tokens that open it, which are
+// given or made for this run. The desk is the socket's thread's alone.
 class WayIn {
  public:
-  WayIn(Blackboard& board, const CommandSocketSettings& settings)
-      : desk_{board, Role::kHigh, [] { return SteadyClock{}.now(); }},
-        token_{settings.token_file.empty() ? random_token() : read_token(settings.token_file)},
-        socket_{{settings.address, settings.port, token_},
-                [this](const std::string& command) { return desk_.answer(command); }} {
+  WayIn(Blackboard& board, const CommandSocketSettings& settings, const DeskOptions& options)
+      : desk_{board, Role::kHigh, options, [] { return SteadyClock{}.now(); }},
+        tokens_{settings.token_file.empty() ? random_tokens() : read_tokens(settings.token_file)},
+        socket_{{settings.address, settings.port, tokens_},
+                [this](const CommandRequest& request) { return desk_.answer(request); },
+                {[this](std::uint64_t session) { desk_.session_ended(session); },
+                 [this] { desk_.look(); }}} {
     if (settings.token_file.empty()) {
-      token_file_.emplace(socket_.port(), token_);
+      token_file_.emplace(socket_.port(), tokens_);
     }
     if (settings.port == 0) {  // whoever asked for any port must be told which
       say("lodesman-high: command socket on " + settings.address + " port " +
@@ -50,7 +50,7 @@ class WayIn {
 
  private:
   OperatorDesk desk_;
-  std::string token_;
+  CommandTokens tokens_;
   CommandSocket socket_;
   std::optional<TokenFile> token_file_;
 };
@@ -146,10 +146,12 @@ struct RunningTasks {
 };
 
 // Runs the high level on one segment until a stop is asked for or a new low level has made another.
-void sail(SharedBlackboard& board, const HighLevelOptions& options,
-          const CommandSocketSettings& settings) {
-  HighLevel high{board.writable(), Role::kHigh, options};
-  const WayIn way_in{board.writable(), settings};
+void sail(SharedBlackboard& board, const BoatConfig& config, const Voyage& voyage,
+          bool start_by_itself) {
+  HighLevel high{board.writable(), Role::kHigh, high_level_options(config, voyage)};
+  DeskOptions at_the_desk = desk_options(config, voyage);
+  at_the_desk.starts_by_itself = start_by_itself;
+  const WayIn way_in{board.writable(), config.command_socket, at_the_desk};
   const auto tasks = high.tasks();
   // Stopped, its tasks leave all safe; they go on where they stood.
   std::optional<RunningTasks> running;
@@ -180,28 +182,28 @@ void hand_on(const std::optional<Stamped<MissionStatus>>& mission, SharedBlackbo
 }
 
 int run(const ProcessOptions& options, bool start_by_itself) {
-  const TomlDocument configuration = load_whole_configuration(options.configuration_file);
-  const Scenario scenario = load_named_scenario(options.scenario_file);
-  HighLevelOptions high_options = high_level_options(configuration, scenario);
-  high_options.planner.start_by_itself = start_by_itself;
-  const auto settings = command_socket_settings(configuration);
+  const BoatConfig config = load_configuration(options.profile, options.common);
+  const std::optional<Scenario> simulated = simulated_scenario(config);
+  const Scenario* scenario = simulated ? &*simulated : nullptr;
+  require_sound(config, scenario);
+  const Voyage voyage = voyage_of(config, scenario);
   // lodesman-low, which has the same rights, warns if they are missing.
   (void)set_up_realtime();
-  auto board = attach(options.segment, Attachment::kFirst);
+  auto board = attach(config.segment, Attachment::kFirst);
   if (board) {
     report_what_was_found(*board);
   }
   while (board) {
-    sail(*board, high_options, settings);
+    sail(*board, config, voyage, start_by_itself);
     if (stop_asked()) {
       break;
     }
     const auto mission = last_mission(*board);
-    high_options.planner.start_by_itself &= !mission || mission->value.started == Time{};
+    start_by_itself &= !mission || mission->value.started == Time{};
     spdlog::warn("a new lodesman-low has made segment {} anew: beginning anew on it",
-                 options.segment);
+                 config.segment);
     board.reset();
-    board = attach(options.segment, Attachment::kAgain);
+    board = attach(config.segment, Attachment::kAgain);
     if (board) {
       hand_on(mission, *board);
     }
@@ -217,11 +219,12 @@ int main(int argc, char** argv) {
   lodesman::log_without_blocking();
   CLI::App app{"The high level: estimator, re-planner, guidance, control and mission",
                "lodesman-high"};
-  app.set_version_flag("--version", lodesman::kVersion);
   lodesman::ProcessOptions options;
   lodesman::add_process_options(app, options);
   bool start_by_itself = false;
-  app.add_flag("--start", start_by_itself, "Start the mission without an operator's word");
+  app.add_flag("--start", start_by_itself,
+               "Start the scenario's mission without an operator's word, once the boat is ready");
+  app.footer("Example: lodesman-high --config boat.toml");
   spdlog::set_level(spdlog::level::warn);
   return lodesman::process_main(app, argc, argv,
                                 [&] { return lodesman::run(options, start_by_itself); });

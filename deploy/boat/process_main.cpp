@@ -11,7 +11,7 @@
 #include <iostream>
 
 #include "deploy/boat/exit_status.h"
-#include "deploy/boat/program_options.h"
+#include "deploy/boat/version.h"
 #include "mid_level/base/clock.h"
 #include "mid_level/base/startup_error.h"
 
@@ -60,11 +60,14 @@ void hold_closed_streams() noexcept {
 }  // namespace
 
 void add_process_options(CLI::App& app, ProcessOptions& options) {
-  app.add_option("--segment", options.segment, "Name of the shared-memory segment")->required();
-  app.add_option("--config", options.configuration_file, "Configuration with every key")
-      ->required();
-  app.add_option("--scenario", options.scenario_file, "Scenario to simulate")->required();
-  add_seed_option(app, options.seed);
+  app.set_version_flag("--version", kVersion);
+  add_configuration_options(app, options.common);
+  app.add_option("--profile", options.profile, "default, or paper: as the paper did it")
+      ->check(CLI::IsMember({"default", "paper"}));
+  add_set_option(app, "--segment", "boat.segment", "Of shared memory, instead of the boat's",
+                 options.common);
+  add_set_option(app, "--scenario", "simulation.scenario", "Of the simulated world",
+                 options.common);
   app.add_flag_callback("--stop-with-input", stop_with_standard_input,
                         "End with standard input, a pipe: so no child outlives its launcher");
 }

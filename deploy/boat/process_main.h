@@ -4,24 +4,22 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cstdint>
 #include <functional>
-#include <optional>
 #include <span>
 #include <string>
 
+#include "deploy/boat/program_options.h"
 #include "deploy/boat/stop_signals.h"
 #include "mid_level/runtime/health_watch.h"
 
 namespace lodesman {
 
 struct ProcessOptions {
-  std::string segment;
-  std::string configuration_file;  // resolved: every key
-  std::string scenario_file;
-  std::optional<std::uint64_t> seed;  // instead of the scenario's
+  CommonOptions common;
+  std::string profile = "default";
 };
 
+// Those of a program of the boat, its version among them.
 void add_process_options(CLI::App& app, ProcessOptions& options);
 
 // What a runner does whose tasks hang at the end: says which, and ends the process with a fault.

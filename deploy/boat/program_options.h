@@ -18,6 +18,47 @@ struct CommonOptions {
   std::vector<std::string> sets;          // section.key=value
 };
 
+inline void add_configuration_options(CLI::App& command, CommonOptions& options) {
+  // One value an option: what follows it is the command's own.
+  command.add_option("--config", options.config_files, "Configuration overlay (repeatable)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command.add_option("--set", options.sets, "Override one configuration value (repeatable)")
+      ->type_name("SECTION.KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+// A text as a TOML string, whatever stands in it.
+[[nodiscard]] inline std::string toml_string(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      quoted += '\\';
+    }
+    if (code < 0x20 || code == 0x7f) {
+      constexpr const char* kDigits = "0123456789ABCDEF";
+      quoted += std::string{"\\u00"} + kDigits[code >> 4U] + kDigits[code & 15U];
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "\"";
+}
+
+// An option of its own for a key that holds a text.
+inline void add_set_option(CLI::App& command, const std::string& flag, const std::string& key,
+                           const std::string& description, CommonOptions& options) {
+  command
+      .add_option_function<std::string>(
+          flag,
+          [&options, key](const std::string& text) {
+            options.sets.push_back(key + "=" + toml_string(text));
+          },
+          description)
+      ->type_name("TEXT");
+}
+
 // Digits alone, up to what a scenario file can hold: CLI11 by itself wraps negative numbers round.
 inline void add_seed_option(CLI::App& command, std::optional<std::uint64_t>& seed) {
   command

@@ -1,41 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/boat/voyage.h"
-#include "deploy/boat/level_options.h"
 
 namespace lodesman {
+namespace {
 
-LowLevelOptions low_level_options(const TomlDocument& configuration, const Scenario& scenario) {
-  LowLevelOptions options = read_low_level_options(configuration.root());
-  options.sonar_range_m = scenario.sonar.range_m;
-  options.delta_t.track_oracle.sector_rad = scenario.sonar.sector_rad;
-  options.delta_t.track_oracle.seed = scenario.seed;
-  if (scenario.sonar.scene == SonarScene::kObstacles) {
-    options.delta_t.known_scene = scenario.obstacles;
+[[nodiscard]] PositionSource position_source_of(const BoatConfig& config,
+                                                const Scenario* scenario) {
+  if (config.position) {
+    return *config.position;
   }
+  if (scenario != nullptr && config.simulation.vessel == SimulatedVessel::kThrust) {
+    return scenario->position.source;
+  }
+  return config.devices.position == "none" ? PositionSource::kDeadReckoning : PositionSource::kGps;
+}
+
+}  // namespace
+
+Voyage voyage_of(const BoatConfig& config, const Scenario* scenario) {
+  Voyage voyage;
+  voyage.position_source = position_source_of(config, scenario);
+  voyage.origin = config.origin;
+  if (scenario == nullptr) {
+    return voyage;
+  }
+  voyage.start = scenario->mission.start.p_WV;
+  voyage.origin = {scenario->environment.origin_latitude_deg,
+                   scenario->environment.origin_longitude_deg};
+  voyage.seed = scenario->seed;
+  voyage.mission = scenario->mission.definition;
+  voyage.sonar_sector_rad = scenario->sonar.sector_rad;
+  if (scenario->sonar.scene == SonarScene::kObstacles) {
+    voyage.known_scene = scenario->obstacles;
+  }
+  return voyage;
+}
+
+LowLevelOptions low_level_options(const BoatConfig& config, const Voyage& voyage) {
+  LowLevelOptions options = config.low;
+  options.delta_t.track_oracle.sector_rad = voyage.sonar_sector_rad;
+  options.delta_t.track_oracle.seed = voyage.seed;
+  options.delta_t.known_scene = voyage.known_scene;
   return options;
 }
 
-HighLevelOptions high_level_options(const TomlDocument& configuration, const Scenario& scenario) {
-  HighLevelOptions options = read_high_level_options(configuration.root());
-  options.estimator.source = scenario.position.source;
-  options.estimator.start = scenario.mission.start.p_WV;
-  options.estimator.origin = {scenario.environment.origin_latitude_deg,
-                              scenario.environment.origin_longitude_deg};
-  options.planner.sonar_range_m = scenario.sonar.range_m;
-  auto& mission = options.planner.mission;
-  mission.goals = scenario.mission.waypoints;
-  mission.goals.push_back(scenario.mission.goal);
-  mission.goal_radius_m = scenario.mission.goal_radius_m;
-  options.controller.surge_ref = scenario.surge_ref;
-  options.planner.progress.least_way_m =
-      least_way_m(options.planner.progress,
-                  scenario.surge_ref * options.estimator.dead_reckoning.speed_per_surge_ref_m_s);
-  if (auto& pilot = options.planner.replanner.pilot; pilot) {
-    pilot->response.speed_max_m_s =
-        scenario.surge_ref * options.estimator.dead_reckoning.speed_per_surge_ref_m_s;
-    pilot->response.look_ahead_m += options.controller.look_ahead_s * pilot->response.speed_max_m_s;
-    options.controller.look_ahead_m = pilot->response.look_ahead_m;
-    options.controller.speed_m_s = pilot->response.speed_max_m_s;
+HighLevelOptions high_level_options(const BoatConfig& config, const Voyage& voyage) {
+  HighLevelOptions options = config.high;
+  options.estimator.source = voyage.position_source;
+  options.estimator.start = voyage.start;
+  options.estimator.origin = voyage.origin;
+  return options;
+}
+
+DeskOptions desk_options(const BoatConfig& config, const Voyage& voyage) {
+  DeskOptions options;
+  options.mission = config.mission;
+  options.origin = voyage.origin;
+  options.speeds = config.speeds;
+  options.at_hand = voyage.mission;
+  const auto& pilot = config.high.planner.replanner.pilot;
+  options.obeys_areas = pilot.has_value();
+  options.tunables.speed_limit_m_s = config.speed_limit_m_s;
+  options.tunables.heading_gain_per_deg = config.high.controller.heading_gain_per_deg;
+  if (pilot) {
+    options.tunables.margin_m = pilot->zones.margin_m;
+    options.tunables.side_gain_m = pilot->side_gain_m;
+    options.tunables.manoeuvre_gain_s = pilot->manoeuvres.switch_gain_s;
+    options.least_margin_m = pilot->zones.least_margin_m;
   }
   return options;
 }

@@ -1,19 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both levels are told of a voyage, from the configuration and the scenario. One thread, at
-// start-up; everything that is wrong throws StartupError.
+// The one value between configuration and levels: what a voyage has that the boat itself has not.
+// One thread, at start-up; everything that is wrong throws StartupError.
 #pragma once
 
+#include <optional>
+#include <vector>
+
+#include "deploy/boat/configuration.h"
 #include "hal_sim/scenario/scenario.h"
 #include "high_level/tasks/high_level.h"
+#include "high_level/tasks/operator_desk.h"
 #include "low_level/tasks/low_level.h"
-#include "mid_level/config/toml_document.h"
 
 namespace lodesman {
 
-// The options of each level for a scenario that is simulated.
-[[nodiscard]] LowLevelOptions low_level_options(const TomlDocument& configuration,
-                                                const Scenario& scenario);
-[[nodiscard]] HighLevelOptions high_level_options(const TomlDocument& configuration,
-                                                  const Scenario& scenario);
+struct Voyage {
+  PositionSource position_source = PositionSource::kDeadReckoning;
+  WorldPoint start;  // where dead reckoning begins
+  GeoPoint origin;   // of the world frame
+  // The paper's tank trick: the obstacles are known, and drawn where the estimate has the boat.
+  std::optional<std::vector<MovingObstacle>> known_scene;
+  double sonar_sector_rad = 0.0;  // in which they are seen
+  std::uint64_t seed = 0;
+  std::optional<MissionDefinition> mission;  // that it begins with
+};
+
+// `scenario`: of the simulated world, where there is one.
+[[nodiscard]] Voyage voyage_of(const BoatConfig& config, const Scenario* scenario);
+
+// The options of each level, and of the desk before the high one.
+[[nodiscard]] LowLevelOptions low_level_options(const BoatConfig& config, const Voyage& voyage);
+[[nodiscard]] HighLevelOptions high_level_options(const BoatConfig& config, const Voyage& voyage);
+[[nodiscard]] DeskOptions desk_options(const BoatConfig& config, const Voyage& voyage);
 
 }  // namespace lodesman

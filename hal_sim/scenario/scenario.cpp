@@ -4,6 +4,9 @@
 #include <cstdio>
 #include <limits>
 
+#include "mid_level/base/geodesy.h"
+#include "mid_level/config/read_mission.h"
+
 namespace lodesman {
 namespace {
 
@@ -13,8 +16,8 @@ constexpr double kMaxCoordinate_m = 1e5;
 constexpr double kMaxTimeLimit_s = 1e5;
 constexpr double kMaxSpeed_m_s = 10.0;
 constexpr double kMaxRadius_m = 100.0;
+constexpr Duration kLinkLostAfter = std::chrono::seconds{5};
 constexpr std::size_t kMaxNameLength = 64;
-constexpr std::size_t kMaxMissionWaypoints = 100;
 
 [[nodiscard]] std::string short_number(double value) {
   char text[32];
@@ -34,20 +37,17 @@ constexpr std::size_t kMaxMissionWaypoints = 100;
   return name;
 }
 
-void read_vehicle(const TomlTable& vehicle, const VesselParameters& vessel, Scenario& scenario) {
+void read_vehicle(const TomlTable& vehicle, const SpeedTable& speeds, Scenario& scenario) {
   if (vehicle.has("speed_m_s") == vehicle.has("surge_ref")) {
     vehicle.refuse(vehicle.has("speed_m_s") ? "surge_ref" : "speed_m_s",
                    "give either speed_m_s or surge_ref");
   }
   if (vehicle.has("surge_ref")) {
     scenario.surge_ref = static_cast<int>(vehicle.integer("surge_ref", 1, kMaxSurgeRef));
-    scenario.speed_m_s = steady_speed_m_s(vessel, scenario.surge_ref);
-    if (!(scenario.speed_m_s > 0.0)) {
-      vehicle.refuse("surge_ref", "is too small to move the vessel");
-    }
+    scenario.speed_m_s = speeds.speed_m_s(scenario.surge_ref);
   } else {
     const double wanted_m_s = vehicle.number("speed_m_s", Range::above(0.0, kMaxSpeed_m_s));
-    const HeldSpeed held = surge_ref_for(vessel, wanted_m_s);
+    const HeldSpeed held = speeds.held(wanted_m_s);
     if (std::abs(held.speed_m_s - wanted_m_s) > kSpeedTolerance * wanted_m_s) {
       vehicle.refuse("speed_m_s", "no SurgeRef holds it within 3 % (the nearest, " +
                                       std::to_string(held.surge_ref) + ", gives " +
@@ -59,19 +59,25 @@ void read_vehicle(const TomlTable& vehicle, const VesselParameters& vessel, Scen
   scenario.vehicle_radius_m = vehicle.number("radius_m", Range::above(0.0, kMaxRadius_m));
 }
 
-[[nodiscard]] ScenarioMission read_mission(const TomlTable& table) {
-  const Range coordinate = Range::between(-kMaxCoordinate_m, kMaxCoordinate_m);
+[[nodiscard]] ScenarioMission read_scenario_mission(const TomlTable& table,
+                                                    const Scenario& scenario) {
   ScenarioMission mission;
-  mission.start.p_WV = point_of(table.pair("start_m", coordinate));
+  mission.start.p_WV =
+      point_of(table.pair("start_m", Range::between(-kMaxCoordinate_m, kMaxCoordinate_m)));
   mission.start.heading = Heading::clockwise_from_y_rad(
       to_rad(table.number("start_heading_deg", Range::between(0.0, 360.0))));
-  if (table.has("waypoints_m")) {
-    for (const auto& pair : table.pairs("waypoints_m", coordinate, 0, kMaxMissionWaypoints)) {
-      mission.waypoints.push_back(point_of(pair));
-    }
+  (void)table.number("goal_radius_m", Range::above(0.0, kMaxRadius_m));  // here it is required
+  const LocalFrame frame{
+      {scenario.environment.origin_latitude_deg, scenario.environment.origin_longitude_deg}};
+  mission.definition = read_mission(
+      table, {.speed_m_s = scenario.speed_m_s, .link_lost_after = kLinkLostAfter}, frame);
+  const auto& goals = mission.definition.goals;
+  for (std::uint32_t i = 0; i + 1 < mission.definition.goal_count; ++i) {
+    mission.waypoints.push_back(point_of({goals[i].x_m, goals[i].y_m}));
   }
-  mission.goal = point_of(table.pair("goal_m", coordinate));
-  mission.goal_radius_m = table.number("goal_radius_m", Range::above(0.0, kMaxRadius_m));
+  const Goal& last = goals[mission.definition.goal_count - 1];
+  mission.goal = point_of({last.x_m, last.y_m});
+  mission.goal_radius_m = mission.definition.goal_radius_m;
   return mission;
 }
 
@@ -146,20 +152,20 @@ void require_reachable(const TomlTable& table, const Scenario& scenario) {
 
 }  // namespace
 
-Scenario read_scenario(const TomlDocument& document, const VesselParameters& vessel) {
+Scenario read_scenario(const TomlDocument& document, const SpeedTable& speeds) {
   const TomlTable root = document.root();
   Scenario scenario;
   scenario.name = read_name(root);
   scenario.seed =
       static_cast<std::uint64_t>(root.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
   scenario.time_limit_s = root.number("time_limit_s", Range::above(0.0, kMaxTimeLimit_s));
-  const TomlTable mission = root.table("mission");
-  scenario.mission = read_mission(mission);
-  read_vehicle(root.table("vehicle"), vessel, scenario);
-  scenario.obstacles = read_obstacles(root);
   if (root.has("environment")) {
     scenario.environment = read_environment(root.table("environment"));
   }
+  const TomlTable mission = root.table("mission");
+  read_vehicle(root.table("vehicle"), speeds, scenario);
+  scenario.mission = read_scenario_mission(mission, scenario);
+  scenario.obstacles = read_obstacles(root);
   if (root.has("position")) {
     scenario.position = read_position(root.table("position"));
   }
@@ -172,8 +178,8 @@ Scenario read_scenario(const TomlDocument& document, const VesselParameters& ves
   return scenario;
 }
 
-Scenario load_scenario(const std::filesystem::path& path, const VesselParameters& vessel) {
-  return read_scenario(TomlDocument::from_file(path), vessel);
+Scenario load_scenario(const std::filesystem::path& path, const SpeedTable& speeds) {
+  return read_scenario(TomlDocument::from_file(path), speeds);
 }
 
 std::filesystem::path find_scenario(const std::string& name_or_path,

@@ -10,10 +10,11 @@
 #include <vector>
 
 #include "hal_sim/scenario/fault.h"
-#include "hal_sim/scenario/vessel_parameters.h"
 #include "mid_level/base/frames.h"
+#include "mid_level/base/speed_table.h"
 #include "mid_level/config/toml_document.h"
 #include "mid_level/geometry/moving_obstacle.h"
+#include "mid_level/messages/mission.h"
 #include "mid_level/messages/sonar.h"
 #include "mid_level/messages/vehicle.h"
 
@@ -21,6 +22,7 @@ namespace lodesman {
 
 struct ScenarioMission {
   VehiclePose start;
+  MissionDefinition definition;       // what the boat is told: the goals below, and the rest
   std::vector<WorldPoint> waypoints;  // visited in order before the goal
   WorldPoint goal;
   double goal_radius_m = 0.0;
@@ -61,7 +63,7 @@ struct Scenario {
   double time_limit_s = 0.0;
   ScenarioMission mission;
   int surge_ref = 0;       // [1, 100]
-  double speed_m_s = 0.0;  // the steady speed of that SurgeRef
+  double speed_m_s = 0.0;  // that SurgeRef holds, by the boat's own calibration
   double vehicle_radius_m = 0.0;
   std::vector<MovingObstacle> obstacles;  // ids 1, 2, ... in the order of the file
   ScenarioEnvironment environment;
@@ -70,13 +72,10 @@ struct Scenario {
   std::vector<Fault> faults;
 };
 
-// The speed of a scenario must be within this share of the steady speed of a SurgeRef.
-inline constexpr double kSpeedTolerance = 0.03;
-
-// Throw StartupError `file:line: key: reason`. The vessel tells which SurgeRef holds a speed.
-[[nodiscard]] Scenario read_scenario(const TomlDocument& document, const VesselParameters& vessel);
-[[nodiscard]] Scenario load_scenario(const std::filesystem::path& path,
-                                     const VesselParameters& vessel);
+// Throw StartupError `file:line: key: reason`. The boat's own
+// calibration tells which SurgeRef holds a speed.
+[[nodiscard]] Scenario read_scenario(const TomlDocument& document, const SpeedTable& speeds);
+[[nodiscard]] Scenario load_scenario(const std::filesystem::path& path, const SpeedTable& speeds);
 
 // The [[obstacle]] tables of a scenario.
 [[nodiscard]] std::vector<MovingObstacle> read_obstacles(const TomlTable& root);

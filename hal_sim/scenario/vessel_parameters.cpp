@@ -2,7 +2,6 @@
 #include "hal_sim/scenario/vessel_parameters.h"
 
 #include <cmath>
-#include <limits>
 
 namespace lodesman {
 namespace {
@@ -61,20 +60,6 @@ double steady_speed_m_s(const VesselParameters& vessel, int surge_ref) noexcept 
   const double quadratic = vessel.surge_drag_n_s2_per_m2;
   // The positive root of quadratic u^2 + linear u = force, in the form that allows quadratic = 0.
   return 2.0 * force_n / (linear + std::sqrt(linear * linear + 4.0 * quadratic * force_n));
-}
-
-HeldSpeed surge_ref_for(const VesselParameters& vessel, double speed_m_s) noexcept {
-  HeldSpeed best;
-  double best_error_m_s = std::numeric_limits<double>::infinity();
-  for (int surge_ref = 1; surge_ref <= kMaxSurgeRef; ++surge_ref) {
-    const double held_m_s = steady_speed_m_s(vessel, surge_ref);
-    const double error_m_s = std::abs(held_m_s - speed_m_s);
-    if (error_m_s < best_error_m_s) {
-      best = {surge_ref, held_m_s};
-      best_error_m_s = error_m_s;
-    }
-  }
-  return best;
 }
 
 }  // namespace lodesman

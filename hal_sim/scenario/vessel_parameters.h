@@ -36,17 +36,8 @@ struct VesselParameters {
 // Thrust of one thruster: none at 127 and 128, otherwise with the square of the distance to 128.
 [[nodiscard]] double thrust_n(const VesselParameters& vessel, std::uint8_t command) noexcept;
 
-inline constexpr int kMaxSurgeRef = 100;
-
 // The speed through the water that a SurgeRef in [0, 100] settles at on a straight course, under
 // the integer commands that eqs 13-14 give for it.
 [[nodiscard]] double steady_speed_m_s(const VesselParameters& vessel, int surge_ref) noexcept;
-
-struct HeldSpeed {
-  int surge_ref = 0;
-  double speed_m_s = 0.0;
-};
-// The SurgeRef in [1, 100] whose steady speed is nearest.
-[[nodiscard]] HeldSpeed surge_ref_for(const VesselParameters& vessel, double speed_m_s) noexcept;
 
 }  // namespace lodesman

@@ -20,39 +20,47 @@ namespace {
 }  // namespace
 
 WorldTask::WorldTask(const Scenario& scenario, const VesselParameters& vessel,
-                     Blackboard& blackboard, SimLink& link)
-    : world_{from_where_it_lies(scenario, blackboard), vessel},
+                     Blackboard& blackboard, SimLink& link, MovedBy moved_by)
+    : moved_by_{moved_by},
+      world_{from_where_it_lies(scenario, blackboard), vessel},
+      vehicle_state_{blackboard.vehicle_state},
       mission_status_{blackboard.mission_status},
       box_{link.thrust},
-      truth_out_{blackboard.world_truth, Role::kLow, "world_truth"},
-      sample_out_{link.world, Role::kLow, "world sample"} {}
+      sample_out_{link.world, Role::kLow, "world sample"} {
+  if (moved_by_ == MovedBy::kThrust) {
+    truth_out_.emplace(blackboard.world_truth, Role::kLow, "world_truth");
+  }
+}
 
 void WorldTask::step(Time now) noexcept {
   const Stamped<MissionStatus>* mission = mission_status_.latest();
-  const bool started = mission != nullptr && mission->value.started != Time{};
+  if (mission != nullptr && mission->value.first_started != mission_started_) {
+    mission_started_ = mission->value.first_started;
+    world_.forget_the_least();
+  }
+  if (moved_by_ == MovedBy::kEstimate) {
+    publish_estimate(now);
+    return;
+  }
   const ThrustCommand thrust = thrust_at(box_, now);
-  if (started) {
-    if (mission->value.started != mission_started_) {
-      mission_started_ = mission->value.started;
-      world_.forget_the_least();
-    }
+  if (mission_started_ != Time{}) {
     // The first step after the start moves on from the start alone.
-    const Time from = std::max(stepped_to_, std::min(mission->value.started, now));
+    const Time from = std::max(stepped_to_, std::min(mission_started_, now));
     const Duration dt = std::clamp(now - from, Duration{}, kLongestStep);
-    const Duration scenario_time = std::max(now - mission->value.started, Duration{});
+    const Duration scenario_time = std::max(now - mission_started_, Duration{});
     world_.step(to_seconds(dt), to_seconds(scenario_time), thrust);
   }
   stepped_to_ = now;
-  publish(now, started, thrust);
+  publish_truth(now, thrust);
 }
 
-void WorldTask::publish(Time now, bool started, ThrustCommand thrust) noexcept {
+void WorldTask::publish_truth(Time now, ThrustCommand thrust) noexcept {
   WorldTruth truth = world_.truth();
   truth.thrust_left = thrust.left;
   truth.thrust_right = thrust.right;
   WorldSample sample;
   sample.stamp = now;
-  sample.started = started ? 1 : 0;
+  sample.started = mission_started_ != Time{} ? 1 : 0;
   sample.scenario_time_s = truth.scenario_time_s;
   sample.x_m = truth.x_m;
   sample.y_m = truth.y_m;
@@ -61,7 +69,25 @@ void WorldTask::publish(Time now, bool started, ThrustCommand thrust) noexcept {
   sample.sway_m_s = truth.sway_m_s;
   sample.yaw_rate_rad_s = truth.yaw_rate_rad_s;
   sample_out_.publish(sample, now);
-  truth_out_.publish(truth, now);
+  truth_out_->publish(truth, now);
+}
+
+// Nothing is simulated round a boat that does not know where it is.
+void WorldTask::publish_estimate(Time now) noexcept {
+  const auto* state = vehicle_state_.fresh(now, max_age::kVehicleState);
+  if (state == nullptr) {
+    return;
+  }
+  WorldSample sample;
+  sample.stamp = now;
+  sample.started = mission_started_ != Time{} ? 1 : 0;
+  sample.scenario_time_s =
+      sample.started != 0 ? to_seconds(std::max(now - mission_started_, Duration{})) : 0.0;
+  sample.x_m = state->value.x_m;
+  sample.y_m = state->value.y_m;
+  sample.heading_rad = state->value.heading_rad;
+  sample.surge_m_s = state->value.surge_m_s;
+  sample_out_.publish(sample, now);
 }
 
 }  // namespace lodesman

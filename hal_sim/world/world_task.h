@@ -3,6 +3,8 @@
 // truth on the blackboard and the sample that the simulated devices sense. One thread steps it.
 #pragma once
 
+#include <optional>
+
 #include "hal_sim/world/sim_link.h"
 #include "hal_sim/world/world.h"
 #include "mid_level/blackboard/blackboard.h"
@@ -11,14 +13,18 @@
 namespace lodesman {
 
 // Until the mission starts the boat lies at its start and the scenario's time stands at 0; from
-// then on both go on for good, also after the mission's end. A new start sets the scenario's time,
-// and with it obstacles and faults, back to 0; the boat stays where it is. On a blackboard that
+// then on both go on for good, through other missions too. On a blackboard that
 // holds the truth of a world that died, the boat lies where that left it, at rest.
+//
+// Where the boat itself is real, the vessel lies where the estimate has it: what is simulated is
+// simulated round that, and there is no truth to be published.
 class WorldTask final : public Task {
  public:
+  enum class MovedBy : std::uint8_t { kThrust, kEstimate };
+
   // Blackboard and link must outlive the task. Throws StartupError when either has a world already.
   WorldTask(const Scenario& scenario, const VesselParameters& vessel, Blackboard& blackboard,
-            SimLink& link);
+            SimLink& link, MovedBy moved_by = MovedBy::kThrust);
 
   void step(Time now) noexcept override;
 
@@ -28,15 +34,18 @@ class WorldTask final : public Task {
   // After a gap (the machine slept) no more than this is caught up with.
   static constexpr Duration kLongestStep = std::chrono::seconds{1};
 
-  void publish(Time now, bool started, ThrustCommand thrust) noexcept;
+  void publish_truth(Time now, ThrustCommand thrust) noexcept;
+  void publish_estimate(Time now) noexcept;
 
+  MovedBy moved_by_;
   World world_;
+  Reader<VehicleState> vehicle_state_;
   Reader<MissionStatus> mission_status_;
   Reader<SimThrust> box_;
-  Writer<WorldTruth> truth_out_;
+  std::optional<Writer<WorldTruth>> truth_out_;
   Writer<WorldSample> sample_out_;
   Time stepped_to_{};
-  Time mission_started_{};
+  Time mission_started_{};  // the first one; 0 before it
 };
 
 }  // namespace lodesman

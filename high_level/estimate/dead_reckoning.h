@@ -4,13 +4,14 @@
 #pragma once
 
 #include "mid_level/base/frames.h"
+#include "mid_level/base/speed_table.h"
 #include "mid_level/base/time.h"
 
 namespace lodesman {
 
 struct DeadReckoningOptions {
-  Duration step{};                       // the paper's time interval: 0.2 s
-  double speed_per_surge_ref_m_s = 0.0;  // [m/s] the paper's k: speed for each unit of SurgeRef
+  Duration step{};                                    // the paper's time interval: 0.2 s
+  SpeedTable speeds = SpeedTable::proportional(1.0);  // the paper: k times SurgeRef
 };
 
 class DeadReckoning {
@@ -31,7 +32,7 @@ class DeadReckoning {
   // Carried on to `now` within the step that has begun, so that a pose belongs to its stamp.
   [[nodiscard]] WorldPoint position_at(Time now, int surge_ref, Heading heading) const noexcept;
   [[nodiscard]] double speed_m_s(int surge_ref) const noexcept {
-    return options_.speed_per_surge_ref_m_s * surge_ref;
+    return options_.speeds.speed_m_s(surge_ref);
   }
 
  private:

@@ -17,7 +17,7 @@ namespace lodesman {
 
 // How the vehicle answers the helm, as far as looking ahead needs it.
 struct VehicleResponse {
-  double speed_max_m_s = 0.0;        // [m/s] > 0 at the scenario's SurgeRef
+  double speed_max_m_s = 0.0;        // [m/s] > 0 at the mission's SurgeRef
   double surge_time_s = 0.0;         // [s] > 0 to come within 1/e of a new speed
   double turn_rate_max_rad_s = 0.0;  // [rad/s] > 0
   double heading_gain_per_s = 0.0;   // [1/s] > 0 turn rate a radian of deviation
@@ -87,6 +87,11 @@ class ManoeuvreChooser {
   };
 
   void forget() noexcept { kept_ = {}; }
+  // Other ones from here on.
+  void set(const VehicleResponse& response, const ManoeuvreOptions& options) noexcept {
+    response_ = response;
+    options_ = options;
+  }
 
   // speed_share_max: [0, 1] what is allowed here. stay_at_end: the route's end is a place to wait
   // at, not the mission's goal.

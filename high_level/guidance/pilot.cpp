@@ -34,13 +34,28 @@ constexpr double kDrifted_m = 2.5;   // ... and so far from it no more
 }  // namespace
 
 Pilot::Pilot(const PilotOptions& options)
-    : options_{options}, chooser_{options.response, options.manoeuvres} {}
+    : options_{options},
+      look_ahead_at_rest_m_{options.response.look_ahead_m},
+      chooser_{options.response, options.manoeuvres} {}
 
 void Pilot::start() noexcept {
   chooser_.forget();
   side_count_ = 0;
   holding_ = false;
   best_.reset();
+}
+
+void Pilot::sail_at(double speed_m_s) noexcept {
+  options_.response.speed_max_m_s = speed_m_s;
+  options_.response.look_ahead_m = look_ahead_at_rest_m_ + options_.look_ahead_s * speed_m_s;
+  chooser_.set(options_.response, options_.manoeuvres);
+}
+
+void Pilot::tune(const Tunables& tunables) noexcept {
+  options_.zones.margin_m = tunables.margin_m;
+  options_.side_gain_m = tunables.side_gain_m;
+  options_.manoeuvres.switch_gain_s = tunables.manoeuvre_gain_s;
+  chooser_.set(options_.response, options_.manoeuvres);
 }
 
 OwnMotion Pilot::when_it_takes_effect(Time now, const VehicleState& state) const noexcept {

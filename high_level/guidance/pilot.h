@@ -12,6 +12,7 @@
 #include "high_level/guidance/manoeuvre.h"
 #include "high_level/guidance/zones.h"
 #include "mid_level/messages/command.h"
+#include "mid_level/messages/mission.h"
 #include "mid_level/messages/vehicle.h"
 
 namespace lodesman {
@@ -20,6 +21,7 @@ struct PilotOptions {
   ZoneOptions zones;
   VehicleResponse response;
   ManoeuvreOptions manoeuvres;
+  double look_ahead_s = 0.0;        // [s] of the response's look-ahead, what comes with speed
   double side_gain_m = 0.0;         // [m] what another side must save
   double narrow_speed_share = 0.0;  // [-] (0, 1] in water that is too narrow for full zones
   Duration latency{};               // from a request to thrust that follows its plan
@@ -31,6 +33,10 @@ class Pilot {
 
   // A mission starts: nothing is kept to.
   void start() noexcept;
+  // Sails at that speed [m/s] > 0 through the water from here on, where nothing is in the way.
+  void sail_at(double speed_m_s) noexcept;
+  // Takes on what an operator changed.
+  void tune(const Tunables& tunables) noexcept;
 
   // Fills in space, start, goal, zones and sides of a request. stay: the goal is a place to wait
   // at, not one to arrive at.
@@ -58,6 +64,7 @@ class Pilot {
                Plan& plan) const noexcept;
 
   PilotOptions options_;
+  double look_ahead_at_rest_m_;
   ManoeuvreChooser chooser_;
   // Of the request that is out.
   std::unique_ptr<PathRequest> asked_ = std::make_unique<PathRequest>();

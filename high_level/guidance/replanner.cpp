@@ -84,6 +84,18 @@ void Replanner::ask(const Pending& pending) noexcept {
   planned_frame_ = pending.frame;
 }
 
+void Replanner::sail_at(double speed_m_s) noexcept {
+  if (pilot_) {
+    pilot_->sail_at(speed_m_s);
+  }
+}
+
+void Replanner::tune(const Tunables& tunables) noexcept {
+  if (pilot_) {
+    pilot_->tune(tunables);
+  }
+}
+
 const PathRequest* Replanner::request(Time now, std::uint64_t frame, Time frame_captured,
                                       const WorldPoint& goal, const PoseHistory& poses) noexcept {
   const auto pose = poses.at(frame_captured);
@@ -112,14 +124,14 @@ const PathRequest* Replanner::request(Time now, const Tracks& tracks, const Vehi
   return request_.get();
 }
 
-const Plan* Replanner::answer(Time now, const SonarPath& path, double range_m) noexcept {
+const Plan* Replanner::answer(Time now, const SonarPath& path) noexcept {
   if (!pending_ || path.request != pending_->id) {
     return nullptr;
   }
   const Pending pending = take_answer(now);
   describe(pending, path.reason);
   if (path.reason == PathReason::kFound) {
-    place_waypoints({path.pixels.data(), path.pixel_count}, SonarView{range_m}, pending.pose,
+    place_waypoints({path.pixels.data(), path.pixel_count}, SonarView{path.range_m}, pending.pose,
                     pending.goal, options_.waypoint_interval_m, plan_);
     plan_.source = WaypointSource::kCurrent;
     plan_.rung = PlanRung::kOnRoute;

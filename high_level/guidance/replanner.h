@@ -55,6 +55,9 @@ class Replanner {
 
   // Forgets plans and goal: a mission starts.
   void start(Time now) noexcept;
+  // For the pilot, where there is one.
+  void sail_at(double speed_m_s) noexcept;
+  void tune(const Tunables& tunables) noexcept;
 
   // Steps 2-4 and 9: the request for this frame, if one is due, else nullptr. frame_captured
   // belongs to `frame`.
@@ -70,7 +73,7 @@ class Replanner {
                                    const VehicleState& state) noexcept;
 
   // Steps 11-12 for the answer to the pending request; nothing for any other answer.
-  [[nodiscard]] const Plan* answer(Time now, const SonarPath& path, double range_m) noexcept;
+  [[nodiscard]] const Plan* answer(Time now, const SonarPath& path) noexcept;
 
   // The plan once there was no answer for longer than the limit, because no sonar frame came, none
   // could be placed, or PathFinder is silent: nothing is known, so nothing is followed. Said once.

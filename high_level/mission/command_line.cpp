@@ -1,43 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "high_level/mission/command_line.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace lodesman {
 namespace {
 
+constexpr std::size_t kMaxName = 64;
+
 // The same time for every wrong token, whatever it has right.
 [[nodiscard]] bool same_token(const std::string& a, const std::string& b) noexcept {
-  unsigned difference = a.size() == b.size() ? 0U : 1U;
+  unsigned difference = a.size() == b.size() && !b.empty() ? 0U : 1U;
   for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
     difference |= static_cast<unsigned>(a[i] ^ b[i]);
   }
   return difference == 0U;
 }
 
-[[nodiscard]] std::string text_of(const nlohmann::json& request, const char* key) {
-  const auto found = request.find(key);
-  return found != request.end() && found->is_string() ? found->get<std::string>() : "";
+[[nodiscard]] Scope scope_of(const std::string& shown, const CommandTokens& tokens) noexcept {
+  const bool view = same_token(shown, tokens.view);
+  const bool abort = same_token(shown, tokens.abort);
+  const bool command = same_token(shown, tokens.command);
+  return command ? Scope::kCommand : abort ? Scope::kAbort : view ? Scope::kView : Scope::kNone;
+}
+
+[[nodiscard]] std::optional<std::string> text_of(const nlohmann::json& line, const char* key) {
+  const auto found = line.find(key);
+  return found != line.end() && found->is_string() ? std::optional{found->get<std::string>()}
+                                                   : std::nullopt;
+}
+
+// A key of the wrong kind is worse than none: what was meant would not be done.
+[[nodiscard]] bool is_well_formed(const nlohmann::json& line) {
+  const auto is_number = [](const nlohmann::json& value) { return value.is_number(); };
+  return line.is_object() && text_of(line, "command") &&
+         (!line.contains("mission") || line["mission"].is_string()) &&
+         (!line.contains("name") || line["name"].is_string()) &&
+         (!line.contains("force") || line["force"].is_boolean()) &&
+         (!line.contains("set") ||
+          (line["set"].is_object() &&
+           std::all_of(line["set"].begin(), line["set"].end(), is_number)));
 }
 
 }  // namespace
 
-CommandLine read_command_line(const std::string& line, const std::string& token) {
-  const auto request = nlohmann::json::parse(line, nullptr, false);
-  if (!request.is_object() || !request.contains("command") || !request["command"].is_string()) {
-    return {"", refusal("a command is a line {\"command\": \"...\", \"token\": \"...\"}")};
+CommandLine read_command_line(const std::string& text, const CommandTokens& tokens) {
+  const auto line = nlohmann::json::parse(text, nullptr, false);
+  if (!is_well_formed(line)) {
+    return {{}, refusal("a command is a line {\"command\": \"...\", \"token\": \"...\"}")};
   }
-  if (request.contains("protocol") && request["protocol"] != kCommandProtocol) {
-    return {"", refusal("this is protocol " + std::to_string(kCommandProtocol))};
+  if (line.contains("protocol") && line["protocol"] != kCommandProtocol) {
+    return {{}, refusal("this is protocol " + std::to_string(kCommandProtocol))};
   }
-  if (token.empty() || !same_token(text_of(request, "token"), token)) {
-    return {"", refusal("wrong or missing token")};
+  CommandRequest request;
+  request.scope = scope_of(text_of(line, "token").value_or(""), tokens);
+  if (request.scope == Scope::kNone) {
+    return {{}, refusal("wrong or missing token")};
   }
-  return {request["command"].get<std::string>(), ""};
+  request.command = *text_of(line, "command");
+  request.name = text_of(line, "name").value_or("").substr(0, kMaxName);
+  request.mission = text_of(line, "mission");
+  request.force = line.value("force", false);
+  if (line.contains("set")) {
+    for (const auto& [key, value] : line["set"].items()) {
+      request.set[key] = value.get<double>();
+    }
+  }
+  return {request, ""};
 }
 
 std::string refusal(const std::string& reason) {
-  return nlohmann::ordered_json{{"ok", false}, {"error", reason}}.dump();
+  return nlohmann::ordered_json{{"ok", false}, {"error", reason}}.dump(
+      -1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 bool stops_the_boat(const std::string& command) noexcept { return command == "abort"; }

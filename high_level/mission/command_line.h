@@ -3,28 +3,50 @@
 // thread. The protocol: docs/wire/command_socket.md.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
 namespace lodesman {
 
-inline constexpr int kCommandProtocol = 1;
+inline constexpr int kCommandProtocol = 2;
+
+// What a token is good for, each for all before it too.
+enum class Scope : std::uint8_t { kNone, kView, kAbort, kCommand };
+
+// The tokens of a boat; one that is empty is nobody's.
+struct CommandTokens {
+  std::string command;
+  std::string abort;
+  std::string view;
+};
+
+struct CommandRequest {
+  std::string command;                 // the word
+  Scope scope = Scope::kNone;          // of the token shown
+  std::uint64_t session = 0;           // > 0, never used again; the socket fills it in
+  std::string name;                    // of who asks, for other people; may be empty
+  std::optional<std::string> mission;  // the text of a mission file
+  std::map<std::string, double> set;   // settings, by their keys in the configuration
+  bool force = false;
+};
 
 // The reply to a command, one JSON document on one line, or nothing yet: then it is asked again a
 // few milliseconds later.
 using Answer = std::function<std::optional<std::string>()>;
-// Is handed the word of "command"; what it orders is on its way when it returns.
-using CommandHandler = std::function<Answer(const std::string& command)>;
+// Is handed what is asked for; what it orders is on its way when it returns.
+using CommandHandler = std::function<Answer(const CommandRequest& request)>;
 
 struct CommandLine {
-  std::string command;  // the word, if it may be obeyed
-  std::string refusal;  // else the reply, after which the session ends
+  CommandRequest request;  // if it may be looked at
+  std::string refusal;     // else the reply, after which the session ends
 };
 
 // What a line {"command": "...", "token": "..."} asks for. It is refused where it is no such line,
-// speaks another protocol or lacks the token; an empty `token` is nobody's.
-[[nodiscard]] CommandLine read_command_line(const std::string& line, const std::string& token);
+// speaks another protocol or lacks a token of the boat's.
+[[nodiscard]] CommandLine read_command_line(const std::string& line, const CommandTokens& tokens);
 
 // {"ok": false, "error": "..."}
 [[nodiscard]] std::string refusal(const std::string& reason);

@@ -22,8 +22,8 @@ using boost::system::error_code;
 
 namespace {
 
-constexpr std::size_t kMaxLine = 4096;  // [bytes] a longer command ends its session
-constexpr int kAcceptsPerTurn = 64;     // before the sessions have their turn
+constexpr std::size_t kMaxLine = 64 * 1024;  // [bytes] a longer command ends its session
+constexpr int kAcceptsPerTurn = 64;          // before the sessions have their turn
 constexpr std::chrono::milliseconds kAnswerPeriod{5};
 constexpr std::chrono::milliseconds kIdleLookPeriod{100};
 constexpr std::chrono::milliseconds kAcceptPause{10};
@@ -46,6 +46,7 @@ struct Session {
 
   tcp::socket socket;
   asio::steady_timer timer;
+  std::uint64_t id = 0;
   asio::steady_timer::time_point heard = asio::steady_timer::clock_type::now();
   Standing standing = Standing::kStranger;
 };
@@ -94,8 +95,9 @@ asio::awaitable<void> send_line(Session& session, std::string line) {
 struct CommandSocket::Impl {
   using Sessions = std::list<std::shared_ptr<Session>>;
 
-  Impl(const CommandSocketOptions& options_in, CommandHandler handler_in)
-      : options{options_in}, handler{std::move(handler_in)} {}
+  Impl(const CommandSocketOptions& options_in, CommandHandler handler_in,
+       CommandSocketEvents events_in)
+      : options{options_in}, handler{std::move(handler_in)}, events{std::move(events_in)} {}
 
   // Line by line: a session that sends many at once waits for the others after each.
   asio::awaitable<void> converse(Session& session) {
@@ -104,15 +106,16 @@ struct CommandSocket::Impl {
       const std::size_t length = co_await asio::async_read_until(
           session.socket, asio::dynamic_buffer(buffer, kMaxLine), '\n', asio::use_awaitable);
       session.heard = asio::steady_timer::clock_type::now();
-      const CommandLine line = read_command_line(buffer.substr(0, length), options.token);
+      CommandLine line = read_command_line(buffer.substr(0, length), options.tokens);
       buffer.erase(0, length);
       if (!line.refusal.empty()) {
         co_await send_line(session, line.refusal);
         co_return;
       }
       session.standing =
-          stops_the_boat(line.command) ? Standing::kAwaitsAbort : Standing::kAwaitsAnswer;
-      const Answer answer = handler(line.command);
+          stops_the_boat(line.request.command) ? Standing::kAwaitsAbort : Standing::kAwaitsAnswer;
+      line.request.session = session.id;
+      const Answer answer = handler(line.request);
       std::string reply = co_await reply_of(session, answer);
       session.standing = Standing::kKnown;
       co_await send_line(session, std::move(reply));
@@ -124,6 +127,9 @@ struct CommandSocket::Impl {
       co_await converse(*session);
     } catch (const std::exception&) {
       // The other side is gone, its line is too long, or it gave up its place: this session ends.
+    }
+    if (events.ended && session->standing != Standing::kStranger) {
+      events.ended(session->id);
     }
     sessions.remove(session);
     spare.take();
@@ -164,6 +170,7 @@ struct CommandSocket::Impl {
   void admit(tcp::socket socket) {
     if (sessions.size() < kMaxSessions || make_room()) {
       sessions.push_back(std::make_shared<Session>(std::move(socket)));
+      sessions.back()->id = ++session_count;
       asio::co_spawn(context, serve(sessions.back()), asio::detached);
     }
   }
@@ -205,6 +212,16 @@ struct CommandSocket::Impl {
       error_code ignored;
       pause.expires_after(ok ? std::chrono::milliseconds{0} : kAcceptPause);
       co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, ignored));
+    }
+  }
+
+  asio::awaitable<void> look_now_and_then() {
+    asio::steady_timer timer{context};
+    for (;;) {
+      error_code ignored;
+      timer.expires_after(kLookPeriod);
+      co_await timer.async_wait(asio::redirect_error(asio::use_awaitable, ignored));
+      events.look();
     }
   }
 
@@ -262,7 +279,7 @@ struct CommandSocket::Impl {
                          " is not loopback, and the token would cross the network in the clear; "
                          "use loopback and a tunnel");
     }
-    if (options.token.empty()) {
+    if (options.tokens.command.empty()) {
       throw StartupError("command_socket.token_file: a token is required");
     }
     const tcp::endpoint endpoint{address, options.port};
@@ -296,6 +313,8 @@ struct CommandSocket::Impl {
 
   CommandSocketOptions options;
   CommandHandler handler;
+  CommandSocketEvents events;
+  std::uint64_t session_count = 0;
   asio::io_context context{1};
   tcp::acceptor acceptor{context};
   Sessions sessions;
@@ -303,11 +322,15 @@ struct CommandSocket::Impl {
   std::jthread thread;
 };
 
-CommandSocket::CommandSocket(const CommandSocketOptions& options, CommandHandler handler)
-    : impl_{std::make_unique<Impl>(options, std::move(handler))} {
+CommandSocket::CommandSocket(const CommandSocketOptions& options, CommandHandler handler,
+                             CommandSocketEvents events)
+    : impl_{std::make_unique<Impl>(options, std::move(handler), std::move(events))} {
   impl_->open();
   asio::co_spawn(impl_->context, impl_->listen(), asio::detached);
   asio::co_spawn(impl_->context, impl_->put_out_the_silent(), asio::detached);
+  if (impl_->events.look) {
+    asio::co_spawn(impl_->context, impl_->look_now_and_then(), asio::detached);
+  }
   impl_->thread = std::jthread{[impl = impl_.get()] { impl->run(); }};
 }
 

@@ -15,7 +15,7 @@ namespace lodesman {
 struct CommandSocketOptions {
   std::string address;     // a loopback IP address
   std::uint16_t port = 0;  // 0: one that is free
-  std::string token;       // that every line must carry; not empty
+  CommandTokens tokens;    // of which every line must carry one; that to command is not empty
   // How long a session may be silent: before its first command, and after one.
   Duration stranger_idle_limit = std::chrono::seconds{2};
   Duration idle_limit = std::chrono::seconds{60};
@@ -27,10 +27,18 @@ struct CommandSocketOptions {
 inline constexpr std::size_t kMaxSessions = 128;
 inline constexpr std::size_t kMaxStrangers = 64;
 
+// What else is called from the socket's thread; each may be empty.
+struct CommandSocketEvents {
+  std::function<void(std::uint64_t session)> ended;  // one that had shown a token
+  std::function<void()> look;                        // every kLookPeriod
+};
+inline constexpr Duration kLookPeriod = std::chrono::milliseconds{20};
+
 class CommandSocket {
  public:
   // Listens from here on. Throws StartupError when it cannot, or may not.
-  CommandSocket(const CommandSocketOptions& options, CommandHandler handler);
+  CommandSocket(const CommandSocketOptions& options, CommandHandler handler,
+                CommandSocketEvents events = {});
   CommandSocket(const CommandSocket&) = delete;
   CommandSocket& operator=(const CommandSocket&) = delete;
   // Waits a moment for the answers that are still awaited.

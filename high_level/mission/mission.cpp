@@ -2,9 +2,6 @@
 #include "high_level/mission/mission.h"
 
 #include <algorithm>
-#include <utility>
-
-#include "mid_level/base/check.h"
 
 namespace lodesman {
 
@@ -25,10 +22,7 @@ Ruling ruling_on(OperatorOrder order, MissionState state) noexcept {
   return {OrderAnswer::kNone, state};
 }
 
-Mission::Mission(MissionOptions options) : options_{std::move(options)} {
-  LODESMAN_CHECK(!options_.goals.empty());
-  make_for(0);
-}
+Mission::Mission(const MissionOptions& options) : options_{options} {}
 
 void Mission::take(const GivenOrder& given, const WorldPoint& position, Time now) noexcept {
   const OperatorCommand& command = given.command;
@@ -36,7 +30,7 @@ void Mission::take(const GivenOrder& given, const WorldPoint& position, Time now
     if (status_.state != MissionState::kAborted) {
       status_.ended = now;
     }
-    abort(command.aborts);
+    abort(command.aborts, MissionCause::kOrder);
     aborted_ = now;
   }
   if (command.order != OperatorOrder::kAbort && command.order != OperatorOrder::kNone) {
@@ -46,52 +40,116 @@ void Mission::take(const GivenOrder& given, const WorldPoint& position, Time now
 }
 
 bool Mission::inherit(const MissionStatus& before, std::uint64_t aborts) noexcept {
+  status_.first_started = before.first_started;
   if (before.state != MissionState::kAborted && aborts <= before.aborts) {
     status_.aborts = before.aborts;
     return false;
   }
   status_.started = before.started;
   status_.ended = before.ended;
-  abort(std::max(aborts, before.aborts));
+  abort(std::max(aborts, before.aborts), before.cause);
   return true;
 }
 
-void Mission::start(Time now) noexcept {
+void Mission::start(const MissionDefinition& definition, const WorldPoint& position,
+                    Time now) noexcept {
+  definition_ = definition;
+  set_out_from_ = position;
   status_.state = MissionState::kUnderWay;
+  status_.cause = MissionCause::kOrder;
+  status_.mission = definition.id;
   status_.started = now;
   status_.ended = Time{};
+  if (status_.first_started == Time{}) {
+    status_.first_started = now;
+  }
+  hold_speed();
   make_for(0);
 }
 
-void Mission::hold(const WorldPoint& position) noexcept {
+void Mission::hold_speed() noexcept {
+  const HeldSpeed held = options_.speeds.held(std::min(definition_.speed_m_s, speed_limit_m_s_));
+  status_.speed_m_s = held.speed_m_s;
+  status_.surge_ref = held.surge_ref;
+}
+
+void Mission::limit_speed(double speed_m_s) noexcept {
+  speed_limit_m_s_ = speed_m_s;
+  if (definition_.goal_count > 0) {
+    hold_speed();
+  }
+}
+
+void Mission::hold(const WorldPoint& position, MissionCause cause) noexcept {
   status_.state = MissionState::kHolding;
+  status_.cause = cause;
   status_.goal_x_m = position.xy_m.x();
   status_.goal_y_m = position.xy_m.y();
 }
 
-void Mission::abort(std::uint64_t count) noexcept {
+void Mission::abort(std::uint64_t count, MissionCause cause) noexcept {
   status_.state = MissionState::kAborted;
+  status_.cause = cause;
   status_.aborts = std::max(status_.aborts, count);
 }
 
+void Mission::watch_link(const CommandLink& link, const WorldPoint& position, Time now) noexcept {
+  // A session that has let go of the command, or never had it, is no link that could be lost.
+  const bool open = link.session != 0 && link.session != link_lost_of_;
+  if (!under_way() || !open || now - link.heard <= definition_.link_lost_after) {
+    return;
+  }
+  link_lost_of_ = link.session;
+  switch (definition_.link_lost) {
+    case LinkLost::kGoOn: break;
+    case LinkLost::kHold: hold(position, MissionCause::kLinkLost); break;
+    case LinkLost::kReturn: go_back(position, now); break;
+    case LinkLost::kAbort:
+      status_.ended = now;
+      abort(status_.aborts, MissionCause::kLinkLost);
+      break;
+  }
+}
+
+// To where it set out from, as a mission of its own.
+void Mission::go_back(const WorldPoint& position, Time now) noexcept {
+  const WorldPoint home = set_out_from_;
+  MissionDefinition way_back = definition_;
+  way_back.goal_count = 1;
+  way_back.goals[0] = {home.xy_m.x(), home.xy_m.y()};
+  way_back.link_lost = LinkLost::kGoOn;
+  start(way_back, position, now);
+  set_out_from_ = home;
+  status_.cause = MissionCause::kLinkLost;
+}
+
 OrderAnswer Mission::obey(const GivenOrder& given, const WorldPoint& position, Time now) noexcept {
-  if (aborted_ == now || given.command.aborts < status_.aborts) {
+  const OperatorCommand& command = given.command;
+  if (aborted_ == now || command.aborts < status_.aborts) {
     return OrderAnswer::kAborted;
   }
   if (given.given < now - kOrderPatience) {
     return OrderAnswer::kTooOld;
   }
-  const Ruling ruling = ruling_on(given.command.order, status_.state);
-  if (ruling.answer != OrderAnswer::kObeyed || ruling.state == status_.state) {
+  const bool starts = command.order == OperatorOrder::kStart;
+  const bool known =
+      at_hand_.goal_count > 0 && (command.mission == 0 || command.mission == at_hand_.id);
+  if (starts && !known) {
+    return OrderAnswer::kNoMission;
+  }
+  const Ruling ruling = ruling_on(command.order, status_.state);
+  const bool another = starts && at_hand_.id != status_.mission;
+  if (ruling.answer != OrderAnswer::kObeyed || (ruling.state == status_.state && !another)) {
     return ruling.answer;
   }
-  status_.state = ruling.state;
-  if (given.command.order == OperatorOrder::kStart) {
-    start(now);
-  } else if (given.command.order == OperatorOrder::kResume) {
+  if (starts) {
+    start(at_hand_, position, now);
+  } else if (command.order == OperatorOrder::kResume) {
+    status_.state = ruling.state;
+    status_.cause = MissionCause::kOrder;
     make_for(status_.goal_index);
   } else {
-    hold(position);
+    hold(position, MissionCause::kOrder);
   }
   return OrderAnswer::kObeyed;
 }
@@ -100,14 +158,15 @@ void Mission::advance(const WorldPoint& position, Time now) noexcept {
   if (!under_way()) {
     return;
   }
-  const bool last = status_.goal_index + 1 == options_.goals.size();
-  const double radius_m = last ? options_.goal_radius_m : options_.waypoint_radius_m;
+  const bool last = status_.goal_index + 1 >= definition_.goal_count;
+  const double radius_m = last ? definition_.goal_radius_m : options_.waypoint_radius_m;
   // Nor is it reached where the distance is no number.
   if (!((position.xy_m - goal().xy_m).norm() <= radius_m)) {
     return;
   }
   if (last) {
     status_.state = MissionState::kReached;
+    status_.cause = MissionCause::kOrder;
     status_.ended = now;
   } else {
     make_for(status_.goal_index + 1);
@@ -116,8 +175,8 @@ void Mission::advance(const WorldPoint& position, Time now) noexcept {
 
 void Mission::make_for(std::uint32_t index) noexcept {
   status_.goal_index = index;
-  status_.goal_x_m = options_.goals[index].xy_m.x();
-  status_.goal_y_m = options_.goals[index].xy_m.y();
+  status_.goal_x_m = definition_.goals[index].x_m;
+  status_.goal_y_m = definition_.goals[index].y_m;
 }
 
 }  // namespace lodesman

@@ -5,12 +5,14 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <optional>
-#include <vector>
 
 #include "mid_level/base/frames.h"
+#include "mid_level/base/speed_table.h"
 #include "mid_level/base/time.h"
 #include "mid_level/messages/command.h"
+#include "mid_level/messages/mission.h"
 
 namespace lodesman {
 
@@ -26,9 +28,8 @@ struct Ruling {
 [[nodiscard]] Ruling ruling_on(OperatorOrder order, MissionState state) noexcept;
 
 struct MissionOptions {
-  std::vector<WorldPoint> goals;   // waypoints in order, the goal last; at least one
   double waypoint_radius_m = 0.0;  // [m] a waypoint counts as visited within this
-  double goal_radius_m = 0.0;      // [m] the goal counts as reached within this
+  SpeedTable speeds = SpeedTable::proportional(0.01);  // of the boat: which SurgeRef holds a speed
 };
 
 // An order as it was published.
@@ -40,10 +41,14 @@ struct GivenOrder {
 
 class Mission {
  public:
-  explicit Mission(MissionOptions options);
+  explicit Mission(const MissionOptions& options);
 
-  // start: from the first goal on, unless under way. abort: latched until the next start. hold:
-  // stays at `position`, the vehicle's own, if under way; resume: goes on from there.
+  // What the next start is a start of, unless that names another.
+  void set_at_hand(const MissionDefinition& definition) noexcept { at_hand_ = definition; }
+
+  // start: from the first goal on, unless under way on that same mission; under way on another one
+  // it takes that one's place. abort: latched until the next start. hold: stays at `position`, the
+  // vehicle's own, if under way; resume: goes on from there.
   //
   // An abort is obeyed by its count too, should the order itself be lost. Of the orders taken at
   // one `now` it wins, wherever it stands among them: what stands beside it is refused. A start is
@@ -53,28 +58,41 @@ class Mission {
   // was ordered of it. An abort stands until a new start, obeyed before or not. Gives whether it
   // does.
   bool inherit(const MissionStatus& before, std::uint64_t aborts) noexcept;
-  // From the first goal on, whatever it was doing.
-  void start(Time now) noexcept;
   // Stays at `position`, the vehicle's own, until it is told otherwise.
-  void hold(const WorldPoint& position) noexcept;
+  void hold(const WorldPoint& position, MissionCause cause) noexcept;
+  // What the mission says of a link that was open and has been silent for its time; once.
+  void watch_link(const CommandLink& link, const WorldPoint& position, Time now) noexcept;
+  // No mission is sailed faster than this from here on.
+  void limit_speed(double speed_m_s) noexcept;
   // Progress by the estimated position, which the mission itself takes for true.
   void advance(const WorldPoint& position, Time now) noexcept;
 
   [[nodiscard]] const MissionStatus& status() const noexcept { return status_; }
+  // The mission that is sailed, or was last.
+  [[nodiscard]] const MissionDefinition& definition() const noexcept { return definition_; }
   // What is made for now; while holding the place held.
   [[nodiscard]] WorldPoint goal() const noexcept { return {{status_.goal_x_m, status_.goal_y_m}}; }
   [[nodiscard]] bool under_way() const noexcept { return status_.state == MissionState::kUnderWay; }
   [[nodiscard]] bool holding() const noexcept { return status_.state == MissionState::kHolding; }
 
  private:
-  void abort(std::uint64_t count) noexcept;
+  void abort(std::uint64_t count, MissionCause cause) noexcept;
+  // From the first goal on, whatever it was doing.
+  void start(const MissionDefinition& definition, const WorldPoint& position, Time now) noexcept;
+  void go_back(const WorldPoint& position, Time now) noexcept;
+  void hold_speed() noexcept;
   [[nodiscard]] OrderAnswer obey(const GivenOrder& given, const WorldPoint& position,
                                  Time now) noexcept;
   void make_for(std::uint32_t index) noexcept;
 
   MissionOptions options_;
+  double speed_limit_m_s_ = std::numeric_limits<double>::infinity();
+  MissionDefinition at_hand_;
+  MissionDefinition definition_;
+  WorldPoint set_out_from_;
   MissionStatus status_;
-  std::optional<Time> aborted_;  // when an order last did
+  std::optional<Time> aborted_;     // when an order last did
+  std::uint64_t link_lost_of_ = 0;  // the session whose loss has been acted on
 };
 
 }  // namespace lodesman

@@ -35,6 +35,10 @@ class ProgressWatch {
   explicit ProgressWatch(const ProgressWatchOptions& options) noexcept : options_{options} {}
 
   void start(Time now) noexcept;
+  // At another speed [m/s] through the water from here on.
+  void sail_at(double speed_m_s) noexcept {
+    options_.least_way_m = least_way_m(options_, speed_m_s);
+  }
   // Gives the cause as soon as no way was made for the patience, kNone while some is made.
   NoWayCause update(Time now, const ProgressSample& sample) noexcept;
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdlib>
+#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -163,9 +164,7 @@ void remove_the_dead(int directory, const fs::path& path) {
   return file.release();
 }
 
-}  // namespace
-
-std::string random_token() {
+[[nodiscard]] std::string random_token() {
   std::array<unsigned char, kTokenBytes> bytes{};
   if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
     throw StartupError("command_socket: no random numbers for a token: " + reason_of(errno));
@@ -179,7 +178,11 @@ std::string random_token() {
   return token;
 }
 
-std::string read_token(const fs::path& path) {
+}  // namespace
+
+CommandTokens random_tokens() { return {random_token(), random_token(), random_token()}; }
+
+CommandTokens read_tokens(const fs::path& path) {
   const auto refuse = [&](const std::string& reason) {
     return StartupError(path.string(), 1, "token", reason);
   };
@@ -194,16 +197,24 @@ std::string read_token(const fs::path& path) {
   if ((status.st_mode & (S_IRWXO | S_IWGRP)) != 0) {
     throw refuse("others may read or change it; chmod 600 mends that");
   }
-  std::array<char, kMaxLength + 2> text{};
+  std::array<char, 3 * (kMaxLength + 1) + 1> text{};
   const ssize_t length = read(file.get(), text.data(), text.size());
-  std::string token{text.data(), length > 0 ? static_cast<std::size_t>(length) : 0U};
-  token = token.substr(0, token.find('\n'));
-  if (token.size() < kMinLength || token.size() > kMaxLength) {
-    throw refuse("must be a line of " + std::to_string(kMinLength) + " to " +
-                 std::to_string(kMaxLength) + " characters");
+  std::istringstream lines{{text.data(), length > 0 ? static_cast<std::size_t>(length) : 0U}};
+  CommandTokens tokens;
+  for (std::string* token : {&tokens.command, &tokens.abort, &tokens.view}) {
+    std::getline(lines, *token);
+    const bool no_token = token->size() < kMinLength || token->size() > kMaxLength;
+    if (no_token && token != &tokens.command) {
+      token->clear();  // nobody's
+    } else if (no_token) {
+      throw refuse("must be a line of " + std::to_string(kMinLength) + " to " +
+                   std::to_string(kMaxLength) + " characters");
+    }
   }
-  return token;
+  return tokens;
 }
+
+std::string read_token(const fs::path& path) { return read_tokens(path).command; }
 
 std::optional<fs::path> find_token_file(std::uint16_t port) {
   for (const fs::path& directory : token_directories()) {
@@ -217,14 +228,15 @@ std::optional<fs::path> find_token_file(std::uint16_t port) {
   return std::nullopt;
 }
 
-TokenFile::TokenFile(std::uint16_t port, const std::string& token) {
+TokenFile::TokenFile(std::uint16_t port, const CommandTokens& tokens) {
+  const std::string text = tokens.command + "\n" + tokens.abort + "\n" + tokens.view;
   std::string tried;
   const std::string name = file_name(port);
   for (const fs::path& place : token_directories()) {
     const Descriptor directory{open_own_directory(place)};
     if (directory.ok()) {
       remove_the_dead(directory.get(), place);
-      descriptor_ = write_token(directory.get(), name, token);
+      descriptor_ = write_token(directory.get(), name, text);
     }
     if (descriptor_ >= 0) {
       path_ = place / name;

@@ -9,23 +9,29 @@
 #include <string>
 #include <utility>
 
+#include "high_level/mission/command_line.h"
+
 namespace lodesman {
 
-// 256 bits from the kernel, in hexadecimal. Throws StartupError.
-[[nodiscard]] std::string random_token();
+// Each 256 bits from the kernel, in hexadecimal. Throws StartupError.
+[[nodiscard]] CommandTokens random_tokens();
 
-// The first line of a file that nobody else can read or change. Throws StartupError.
+// The first lines of a file that nobody else can read or change: the token to command, that to
+// abort and that to view. A second or third line that is too short for a token is none. Throws
+// StartupError.
+[[nodiscard]] CommandTokens read_tokens(const std::filesystem::path& file);
+// The first line alone: what a client shows.
 [[nodiscard]] std::string read_token(const std::filesystem::path& file);
 
 // The file that a running boat wrote for its command socket on this port, in a directory of this
 // user or of the system. Nothing where no program that lives has written one.
 [[nodiscard]] std::optional<std::filesystem::path> find_token_file(std::uint16_t port);
 
-// A token written where find_token_file() looks for it, as long as this lives.
+// Tokens written where find_token_file() looks for them, as long as this lives.
 class TokenFile {
  public:
   // Throws StartupError when no directory will do.
-  TokenFile(std::uint16_t port, const std::string& token);
+  TokenFile(std::uint16_t port, const CommandTokens& tokens);
   TokenFile(const TokenFile&) = delete;
   TokenFile& operator=(const TokenFile&) = delete;
   ~TokenFile();

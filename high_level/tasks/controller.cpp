@@ -30,9 +30,19 @@ ControllerTask::ControllerTask(Blackboard& board, Role role, const ControllerOpt
       vehicle_state_{board.vehicle_state},
       mission_status_{board.mission_status},
       plan_{board.plan},
+      tunables_{board.tunables},
       commands_{board.helm_command, role, "helm_command"} {}
 
-void ControllerTask::step(Time now) noexcept { commands_.publish(decide(now), now); }
+void ControllerTask::step(Time now) noexcept {
+  take_tunables();
+  commands_.publish(decide(now), now);
+}
+
+void ControllerTask::take_tunables() noexcept {
+  if (const auto* tunables = tunables_.latest(); tunables != nullptr) {
+    options_.heading_gain_per_deg = tunables->value.heading_gain_per_deg;
+  }
+}
 
 void ControllerTask::enter_safe_state(Time now) noexcept { commands_.publish(HelmCommand{}, now); }
 
@@ -46,6 +56,8 @@ HelmCommand ControllerTask::decide(Time now) noexcept {
     helm.reason = HelmReason::kStaleMission;
     return helm;
   }
+  surge_ref_ = mission->value.surge_ref;
+  speed_m_s_ = mission->value.speed_m_s;
   const bool holds = mission->value.state == MissionState::kHolding && plan != nullptr &&
                      plan->value.steer_by != SteerBy::kWaypoints;
   if (mission->value.state != MissionState::kUnderWay && !holds) {
@@ -93,8 +105,9 @@ void ControllerTask::steer_by_pilot(const Plan& plan, const VehicleState& state,
                                     const Attitude& attitude, HelmCommand& helm) noexcept {
   const WorldPoint position{{state.x_m, state.y_m}};
   const Vec current{state.current_x_m_s, state.current_y_m_s};
-  const SteeringPoint ahead = point_to_steer_for({plan.waypoints.data(), plan.waypoint_count},
-                                                 position, options_.look_ahead_m);
+  const double look_ahead_m = options_.look_ahead_m + options_.look_ahead_s * speed_m_s_;
+  const SteeringPoint ahead =
+      point_to_steer_for({plan.waypoints.data(), plan.waypoint_count}, position, look_ahead_m);
   helm.waypoint_index = ahead.waypoint;
   helm.waypoint_x_m = ahead.point.xy_m.x();
   helm.waypoint_y_m = ahead.point.xy_m.y();
@@ -113,7 +126,7 @@ void ControllerTask::steer_by_pilot(const Plan& plan, const VehicleState& state,
 
 void ControllerTask::steer_along(const Vec& way, double speed_share, const Vec& current,
                                  const Attitude& attitude, HelmCommand& helm) noexcept {
-  const double speed_m_s = std::abs(speed_share) * options_.speed_m_s;
+  const double speed_m_s = std::abs(speed_share) * speed_m_s_;
   const Vec through = velocity_for_course(way.normalized(), speed_m_s, current);
   const Vec& steered = speed_m_s > 0.0 ? through : way;
   const Heading reference = Heading::of_displacement(steered.x(), steered.y());
@@ -130,7 +143,7 @@ void ControllerTask::keep_place(const Vec& way, const Plan& plan, const Vec& cur
   const double off_m = way.norm() - kStay_m;
   Vec through = -current;
   if (off_m > 0.0) {
-    through += std::min(off_m / kReturn_s, options_.speed_m_s) * way.normalized();
+    through += std::min(off_m / kReturn_s, speed_m_s_) * way.normalized();
   }
   const double speed_m_s = through.norm();
   const Heading heading = Heading::clockwise_from_y_rad(attitude.heading_rad);
@@ -147,7 +160,7 @@ void ControllerTask::keep_place(const Vec& way, const Plan& plan, const Vec& cur
     reference = Heading::of_displacement(-through.x(), -through.y());
   }
   const double along = std::max(0.0, std::cos(heading.turn_to_rad(reference)));
-  const double share = along * std::min(speed_m_s / options_.speed_m_s, std::abs(plan.speed_share));
+  const double share = along * std::min(speed_m_s / speed_m_s_, std::abs(plan.speed_share));
   turn_to(astern ? -share : share, reference, attitude, helm);
 }
 
@@ -161,7 +174,7 @@ void ControllerTask::turn_to(double speed_share, Heading reference, const Attitu
 // What is no number is no command: it would be some whole number in the end.
 void ControllerTask::set_helm(double speed_share, Heading heading, Heading reference,
                               HelmCommand& helm) const noexcept {
-  const double surge_ref = speed_share * options_.surge_ref;
+  const double surge_ref = speed_share * surge_ref_;
   if (!std::isfinite(surge_ref) || !std::isfinite(heading.turn_to_rad(reference))) {
     helm.reason = HelmReason::kNotSane;
     helm.surge_ref = 0;

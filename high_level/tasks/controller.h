@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The controller task: tracks the waypoints of the newest plan with constant surge and the P
-// controller of the heading (eqs 7-9); neutral, with the reason, whenever an input is missing.
-// Stepped by its runner's thread.
+// The controller task: tracks the waypoints of the newest plan with the mission's constant surge
+// and the P controller of the heading (eqs 7-9); neutral, with the reason, whenever an input is
+// missing. Stepped by its runner's thread.
 #pragma once
 
 #include "high_level/guidance/waypoints.h"
@@ -10,12 +10,10 @@
 namespace lodesman {
 
 struct ControllerOptions {
-  int surge_ref = 0;                  // [-] [-100, 100] eq. 7
   double heading_gain_per_deg = 0.0;  // [1/deg] > 0 Kh of eq. 9
   double waypoint_radius_m = 0.0;     // [m] > 0
-  double look_ahead_m = 0.0;          // [m] > 0 of steering by line of sight
+  double look_ahead_m = 0.0;          // [m] > 0 of steering by line of sight, at rest
   double look_ahead_s = 0.0;          // [s] what of it comes with a metre a second
-  double speed_m_s = 0.0;             // [m/s] > 0 at that SurgeRef, where the pilot steers
   double heading_lead_s = 0.0;        // [s] it steers by the heading it will have by then
 };
 
@@ -25,10 +23,11 @@ class ControllerTask final : public Task {
   void step(Time now) noexcept override;
   void enter_safe_state(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override {
-    return refused_by(attitude_, vehicle_state_, mission_status_, plan_);
+    return refused_by(attitude_, vehicle_state_, mission_status_, plan_, tunables_);
   }
 
  private:
+  void take_tunables() noexcept;
   [[nodiscard]] HelmCommand decide(Time now) noexcept;
   void steer_for_waypoint(const Plan& plan, const WorldPoint& position, Heading heading,
                           HelmCommand& helm) noexcept;
@@ -45,11 +44,14 @@ class ControllerTask final : public Task {
                 HelmCommand& helm) const noexcept;
 
   ControllerOptions options_;
+  int surge_ref_ = 0;       // [-] eq. 7, of the mission ...
+  double speed_m_s_ = 0.0;  // [m/s] ... and what it holds
   WaypointTracker tracker_;
   Reader<Attitude> attitude_;
   Reader<VehicleState> vehicle_state_;
   Reader<MissionStatus> mission_status_;
   Reader<Plan> plan_;
+  Reader<Tunables> tunables_;
   Writer<HelmCommand> commands_;
 };
 

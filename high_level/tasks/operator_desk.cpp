@@ -2,10 +2,11 @@
 #include "high_level/tasks/operator_desk.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "mid_level/base/heading.h"
+#include "high_level/guidance/areas.h"
 
 namespace lodesman {
 namespace {
@@ -29,6 +30,7 @@ using nlohmann::ordered_json;
     case OrderAnswer::kNotHolding:
       return refusal(std::string{"not holding but "} + to_string(state));
     case OrderAnswer::kAborted: return refusal("an abort came first");
+    case OrderAnswer::kNoMission: return refusal("there is no mission: give one");
     case OrderAnswer::kTooOld:
     case OrderAnswer::kNone: break;
   }
@@ -42,33 +44,236 @@ using nlohmann::ordered_json;
                                : OperatorOrder::kNone;
 }
 
+[[nodiscard]] Scope needed_for(const std::string& command) noexcept {
+  return command == "status"       ? Scope::kView
+         : stops_the_boat(command) ? Scope::kAbort
+                                   : Scope::kCommand;
+}
+
+[[nodiscard]] std::span<const MissionArea> areas_of(const MissionDefinition& mission) noexcept {
+  return {mission.areas.data(), mission.area_count};
+}
+
+// What may be tuned: its key in the configuration, its member, and what it may be.
+struct Tunable {
+  const char* key;
+  double Tunables::*member;
+  double least;
+  double most;
+};
+constexpr std::array<Tunable, 5> kTunables{{
+    {"mission.speed_limit_m_s", &Tunables::speed_limit_m_s, 0.01, 10.0},
+    {"zones.margin_m", &Tunables::margin_m, 0.0, 20.0},
+    {"pilot.side_gain_m", &Tunables::side_gain_m, 0.0, 100.0},
+    {"pilot.manoeuvre_gain_s", &Tunables::manoeuvre_gain_s, 0.0, 100.0},
+    {"control.heading_gain_per_deg", &Tunables::heading_gain_per_deg, 0.01, 100.0},
+}};
+
+[[nodiscard]] std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+[[nodiscard]] ordered_json json_of(const Tunables& tunables) {
+  ordered_json json{{"version", tunables.version}};
+  for (const Tunable& tunable : kTunables) {
+    json[tunable.key] = tunables.*tunable.member;
+  }
+  return json;
+}
+
 }  // namespace
 
-OperatorDesk::OperatorDesk(Blackboard& board, Role role, Now now)
-    : now_{std::move(now)},
+OperatorDesk::OperatorDesk(Blackboard& board, Role role, DeskOptions options, Now now)
+    : options_{std::move(options)},
+      frame_{options_.origin},
+      now_{std::move(now)},
+      readiness_{board},
+      definitions_{board.mission_definition, role, "mission_definition"},
       orders_{board.operator_command, role, "operator_command"},
+      links_{board.command_link, role, "command_link"},
+      tunables_{board.tunables, role, "tunables"},
+      at_hand_{board.mission_definition},
       mission_{board.mission_status},
       state_{board.vehicle_state},
-      plan_{board.plan},
-      helm_{board.helm_command} {
+      boat_status_{board} {
   // Goes on counting where a program that was here before has left off.
   Reader<OperatorCommand> before{board.operator_command};
   if (const auto* last = before.latest(); last != nullptr) {
     aborts_ = last->value.aborts;
   }
+  options_.tunables.version = tunables_.sequence() + 1;
+  tunables_.publish(options_.tunables, now_());
+  links_.publish({}, now_());
+  if (options_.at_hand) {
+    require_possible(*options_.at_hand);
+    if (at_hand() == nullptr) {
+      lay_out(*options_.at_hand);
+    }
+  }
 }
 
-Answer OperatorDesk::answer(const std::string& command) {
+void OperatorDesk::require_possible(const MissionDefinition& mission) const {
+  const HeldSpeed held = options_.speeds.held(mission.speed_m_s);
+  if (std::abs(held.speed_m_s - mission.speed_m_s) > kSpeedTolerance * mission.speed_m_s) {
+    throw StartupError("speed_m_s: no SurgeRef holds " + short_number(mission.speed_m_s) +
+                       " m/s within 3 % (the nearest, " + std::to_string(held.surge_ref) +
+                       ", gives " + short_number(held.speed_m_s) + " m/s)");
+  }
+  if (mission.area_count > 0 && !options_.obeys_areas) {
+    throw StartupError("fence_m, keep_out_m: the paper's planner knows none (planner.space)");
+  }
+  for (std::uint32_t i = 0; i < mission.goal_count; ++i) {
+    const WorldPoint goal{{mission.goals[i].x_m, mission.goals[i].y_m}};
+    for (const MissionArea& area : areas_of(mission)) {
+      if (!allows(area, goal)) {
+        throw StartupError(
+            std::string{i + 1 < mission.goal_count ? "waypoints" : "goal"} + ": lies " +
+            (area.kind == AreaKind::kFence ? "outside the fence" : "in a keep-out area"));
+      }
+    }
+  }
+}
+
+void OperatorDesk::lay_out(const MissionDefinition& mission) {
+  MissionDefinition next = mission;
+  next.id = definitions_.sequence() + 1;
+  definitions_.publish(next, now_());
+}
+
+const MissionDefinition* OperatorDesk::at_hand() {
+  const auto* definition = at_hand_.latest();
+  return definition != nullptr ? &definition->value : nullptr;
+}
+
+std::string OperatorDesk::objections(const MissionDefinition& mission) {
+  std::vector<std::string> reasons = readiness_.reasons(now_());
+  const auto* state = state_.fresh(now_(), max_age::kVehicleState);
+  for (const MissionArea& area : areas_of(mission)) {
+    if (state != nullptr && !allows(area, {{state->value.x_m, state->value.y_m}})) {
+      reasons.emplace_back(area.kind == AreaKind::kFence ? "the boat lies outside the fence"
+                                                         : "the boat lies in a keep-out area");
+    }
+  }
+  std::string text;
+  for (const std::string& reason : reasons) {
+    text += (text.empty() ? "not ready: " : "; ") + reason;
+  }
+  return text;
+}
+
+void OperatorDesk::look() {
+  const Time now = now_();
+  const auto* mission = mission_.fresh(now, max_age::kMissionStatus);
+  const MissionDefinition* definition = at_hand();
+  if (!options_.starts_by_itself || mission == nullptr || definition == nullptr) {
+    return;
+  }
+  look_at_mission();
+  if (mission->value.state != MissionState::kIdle || abort_is_on_its_way()) {
+    options_.starts_by_itself = false;  // somebody has given an order, or an abort stands
+  } else if (!in_hand_ && objections(*definition).empty()) {
+    Order order{OperatorOrder::kStart, now, aborts_};
+    publish(order);
+  }
+}
+
+void OperatorDesk::session_ended(std::uint64_t session) { commander_.ended(session); }
+
+Answer OperatorDesk::answer(const CommandRequest& request) {
+  const std::string& command = request.command;
+  const auto at_once = [](std::string reply) {
+    return [reply = std::move(reply)] { return reply; };
+  };
+  if (request.scope < needed_for(command)) {
+    return at_once(refusal("this token is not good for " + command));
+  }
   if (stops_the_boat(command)) {
     return abort();
   }
   if (command == "status") {
-    return [reply = status()] { return reply; };
+    return at_once(status());
   }
-  if (const OperatorOrder word = order_of(command); word != OperatorOrder::kNone) {
-    return [this, order = Order{word, now_(), aborts_, 0}]() mutable { return reply_to(order); };
+  if (command == "take" || command == "heartbeat" || command == "release") {
+    return at_once(change_commander(request));
   }
-  return [reply = refusal("unknown command: " + command)] { return reply; };
+  if (command == "tune" || order_of(command) != OperatorOrder::kNone) {
+    if (const auto no = commander_.objection(request.session, now_())) {
+      return at_once(refusal(*no));
+    }
+    return command == "tune" ? at_once(tune(request)) : order(request);
+  }
+  return at_once(refusal("unknown command: " + command));
+}
+
+Answer OperatorDesk::order(const CommandRequest& request) {
+  Order order{order_of(request.command), now_(), aborts_};
+  if (order.order == OperatorOrder::kStart) {
+    try {
+      if (request.mission) {
+        auto mission = std::make_shared<MissionDefinition>(
+            read_mission_text(*request.mission, "mission", options_.mission, frame_));
+        require_possible(*mission);
+        order.mission = std::move(mission);
+      }
+    } catch (const StartupError& error) {
+      return [reply = refusal(error.what())] { return reply; };
+    }
+    const MissionDefinition* meant = order.mission ? order.mission.get() : at_hand();
+    if (meant == nullptr) {
+      return [reply = reply_of(OrderAnswer::kNoMission, MissionState::kIdle)] { return reply; };
+    }
+    if (const std::string no = objections(*meant); !no.empty()) {
+      return [reply = refusal(no)] { return reply; };
+    }
+    if (commander_.link().session != request.session) {
+      commander_.forget_the_lost(now_());
+      publish_link();
+    }
+  }
+  options_.starts_by_itself = false;
+  return [this, order]() mutable { return reply_to(order); };
+}
+
+std::string OperatorDesk::change_commander(const CommandRequest& request) {
+  const Time now = now_();
+  const auto no = request.command == "take"
+                      ? commander_.take(request.session, request.name, request.force, now)
+                  : request.command == "release" ? commander_.release(request.session)
+                                                 : commander_.beat(request.session, now);
+  if (no) {
+    return refusal(*no);
+  }
+  publish_link();
+  const auto* mission = mission_.latest();
+  return done(mission != nullptr ? mission->value.state : MissionState::kIdle);
+}
+
+void OperatorDesk::publish_link() { links_.publish(commander_.link(), now_()); }
+
+std::string OperatorDesk::tune(const CommandRequest& request) {
+  Tunables next = options_.tunables;
+  for (const auto& [key, value] : request.set) {
+    const auto* tunable = std::find_if(kTunables.begin(), kTunables.end(),
+                                       [&](const Tunable& t) { return t.key == key; });
+    if (tunable == kTunables.end()) {
+      return refusal(key + ": may not be changed under way");
+    }
+    const double least =
+        tunable->member == &Tunables::margin_m ? options_.least_margin_m : tunable->least;
+    if (!(value >= least && value <= tunable->most)) {
+      return refusal(key + ": must be from " + short_number(least) + " to " +
+                     short_number(tunable->most));
+    }
+    next.*tunable->member = value;
+  }
+  if (!request.set.empty()) {
+    ++next.version;
+    options_.tunables = next;
+    tunables_.publish(next, now_());
+  }
+  return ordered_json{{"ok", true}, {"tunables", json_of(next)}}.dump();
 }
 
 Answer OperatorDesk::abort() {
@@ -134,53 +339,41 @@ std::optional<std::string> OperatorDesk::take_turn(Order& order, const MissionSt
     return reply_of(OrderAnswer::kAborted, mission.state);
   }
   if (in_hand_) {
-    if (in_hand_->order == order.order) {
+    if (in_hand_->order == order.order && !order.mission) {
       order.sequence = in_hand_->sequence;  // the same word: one publication does for both
     }
     return std::nullopt;
   }
   const Ruling ruling = ruling_on(order.order, mission.state);
-  if (ruling.answer != OrderAnswer::kObeyed || ruling.state == mission.state) {
+  if (ruling.answer != OrderAnswer::kObeyed || (ruling.state == mission.state && !order.mission)) {
     return reply_of(ruling.answer, mission.state);  // nothing to change: nothing to publish
   }
+  publish(order);
+  return std::nullopt;
+}
+
+void OperatorDesk::publish(Order& order) {
+  if (order.mission) {
+    lay_out(*order.mission);
+  }
+  const MissionDefinition* definition = at_hand();
   const Time now = now_();
-  orders_.publish({order.order, aborts_}, now);
+  orders_.publish({order.order, aborts_, definition != nullptr ? definition->id : 0}, now);
   order.sequence = orders_.sequence();
   in_hand_ = order;
   in_hand_->given = now;
-  return std::nullopt;
 }
 
 std::string OperatorDesk::status() {
   const Time now = now_();
   ordered_json reply{{"ok", true}, {"protocol", kCommandProtocol}};
-  if (const auto* mission = mission_.latest(); mission != nullptr) {
-    const MissionStatus& m = mission->value;
-    reply["state"] = to_string(m.state);
-    reply["time_s"] = m.started == Time{} ? 0.0 : to_seconds(now - m.started);
-    reply["goal_m"] = {m.goal_x_m, m.goal_y_m};
-    reply["aborts"] = m.aborts;
-    if (m.no_way != NoWayCause::kNone) {
-      reply["no_way"] = {{"cause", to_string(m.no_way)},
-                         {"for_s", to_seconds(now - m.no_way_since)}};
-    }
+  boat_status_.add_to(reply, now);
+  if (commander_.commands(now)) {
+    reply["commander"] = {{"name", commander_.name()},
+                          {"for_s", to_seconds(now - commander_.link().opened)}};
   }
-  if (const auto* state = state_.latest(); state != nullptr) {
-    reply["position_m"] = {state->value.x_m, state->value.y_m};
-    reply["heading_deg"] = compass_deg(state->value.heading_rad);
-    reply["state_age_s"] = to_seconds(now - state->stamp);
-  }
-  if (const auto* plan = plan_.latest(); plan != nullptr) {
-    reply["plan"] = {{"id", plan->value.id},
-                     {"reason", to_string(plan->value.reason)},
-                     {"rung", to_string(plan->value.rung)},
-                     {"waypoints", to_string(plan->value.source)},
-                     {"age_s", to_seconds(now - plan->stamp)}};
-  }
-  if (const auto* helm = helm_.latest(); helm != nullptr) {
-    reply["helm"] = to_string(helm->value.reason);
-  }
-  return reply.dump();
+  reply["tunables"] = json_of(options_.tunables);
+  return reply.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 }  // namespace lodesman

@@ -1,37 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
-// Between the command socket and the mission: passes orders on and answers once the mission's own
-// status says what became of them. The socket's thread alone; nothing here waits.
+// Between the command socket and the mission: takes missions and orders, sees that whoever gives
+// them may, and answers once the mission's own status says what became of them. One thread; nothing
+// here waits.
 #pragma once
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "high_level/mission/command_line.h"
+#include "high_level/mission/commander.h"
 #include "high_level/mission/mission.h"
+#include "high_level/tasks/boat_status.h"
+#include "high_level/tasks/readiness.h"
+#include "mid_level/base/geodesy.h"
 #include "mid_level/blackboard/blackboard.h"
+#include "mid_level/config/read_mission.h"
 
 namespace lodesman {
+
+struct DeskOptions {
+  MissionDefaults mission;
+  GeoPoint origin;  // of the world frame
+  SpeedTable speeds = SpeedTable::proportional(0.01);
+  Tunables tunables;            // as the configuration has them
+  double least_margin_m = 0.0;  // [m] no margin is tuned below it
+  bool obeys_areas = true;      // the paper's planner knows no fence
+  // The mission at hand for a start that names none, unless one was given before.
+  std::optional<MissionDefinition> at_hand{};
+  bool starts_by_itself = false;  // that, once the boat is ready, unless somebody gives an order
+};
 
 class OperatorDesk {
  public:
   using Now = std::function<Time()>;
 
-  // Throws StartupError when the orders have a writer already.
-  OperatorDesk(Blackboard& board, Role role, Now now);
+  // Throws StartupError when the orders have a writer already, or the mission at hand cannot be.
+  OperatorDesk(Blackboard& board, Role role, DeskOptions options, Now now);
+
+  // To be called now and then.
+  void look();
 
   // What a command comes to. An abort is on the blackboard when this returns; another order waits
   // for the one before it and for every abort. The desk must outlive the answer.
-  [[nodiscard]] Answer answer(const std::string& command);
+  [[nodiscard]] Answer answer(const CommandRequest& request);
+  // A session of the socket is over.
+  void session_ended(std::uint64_t session);
 
  private:
   // An order other than abort, from when it was given until it is answered.
   struct Order {
     OperatorOrder order = OperatorOrder::kNone;
     Time given{};
-    std::uint64_t aborts = 0;    // ordered when it was given
-    std::uint64_t sequence = 0;  // of its publication; 0: it waits for its turn
+    std::uint64_t aborts = 0;                            // ordered when it was given
+    std::uint64_t sequence = 0;                          // of its publication; 0: it waits its turn
+    std::shared_ptr<const MissionDefinition> mission{};  // start: another than that at hand
   };
   struct Answered {
     std::uint64_t sequence = 0;
@@ -41,18 +66,35 @@ class OperatorDesk {
 
   [[nodiscard]] std::string status();
   [[nodiscard]] Answer abort();
+  [[nodiscard]] Answer order(const CommandRequest& request);
+  [[nodiscard]] std::string change_commander(const CommandRequest& request);
+  [[nodiscard]] std::string tune(const CommandRequest& request);
+  // Every reason against a start now, in words; empty where there is none.
+  [[nodiscard]] std::string objections(const MissionDefinition& mission);
+  void require_possible(const MissionDefinition& mission) const;
+  void lay_out(const MissionDefinition& mission);
+  [[nodiscard]] const MissionDefinition* at_hand();
   [[nodiscard]] std::optional<std::string> reply_to_abort(std::uint64_t count, Time given);
   [[nodiscard]] std::optional<std::string> reply_to(Order& order);
   [[nodiscard]] std::optional<std::string> take_turn(Order& order, const MissionStatus& mission);
+  void publish(Order& order);
+  void publish_link();
   void look_at_mission();
   [[nodiscard]] bool abort_is_on_its_way() const noexcept { return obeyed_aborts_ < aborts_; }
 
+  DeskOptions options_;
+  LocalFrame frame_;
   Now now_;
+  Commander commander_;
+  Readiness readiness_;
+  Writer<MissionDefinition> definitions_;
   Writer<OperatorCommand> orders_;
+  Writer<CommandLink> links_;
+  Writer<Tunables> tunables_;
+  Reader<MissionDefinition> at_hand_;
   Reader<MissionStatus> mission_;
   Reader<VehicleState> state_;
-  Reader<Plan> plan_;
-  Reader<HelmCommand> helm_;
+  BoatStatus boat_status_;
   std::uint64_t aborts_ = 0;         // ordered
   std::uint64_t obeyed_aborts_ = 0;  // by the mission's last word
   std::optional<Order> in_hand_;     // published, not yet answered: one at a time

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "high_level/guidance/areas.h"
+
 namespace lodesman {
 
 namespace {
@@ -34,7 +36,10 @@ PlannerTask::PlannerTask(Blackboard& board, Role role, PlannerOptions options)
       mission_{options_.mission},
       replanner_{with_silence_limit(options_.replanner), first_free_id(board)},
       progress_{options_.progress},
+      definitions_{board.mission_definition},
       orders_{board.operator_command},
+      link_{board.command_link},
+      tunables_{board.tunables},
       vehicle_state_{board.vehicle_state},
       obstacles_{board.sonar_obstacles},
       tracks_{board.tracks},
@@ -54,9 +59,7 @@ PlannerTask::PlannerTask(Blackboard& board, Role role, PlannerOptions options)
   }
   Reader<MissionStatus> before{board.mission_status};
   const auto* last = before.latest();
-  if (mission_.inherit(last != nullptr ? last->value : MissionStatus{}, aborts)) {
-    options_.start_by_itself = false;
-  }
+  (void)mission_.inherit(last != nullptr ? last->value : MissionStatus{}, aborts);
 }
 
 void PlannerTask::step(Time now) noexcept {
@@ -66,7 +69,10 @@ void PlannerTask::step(Time now) noexcept {
     position_ = {{state->value.x_m, state->value.y_m}};
   }
   hold_after_absence(now, state != nullptr);
-  take_orders(now, state != nullptr);
+  take_tunables();
+  take_orders(now);
+  watch_link(now);
+  sail_as_the_mission_says(now);
   if (state != nullptr) {
     mission_.advance(position_, now);
   }
@@ -87,24 +93,46 @@ void PlannerTask::hold_after_absence(Time now, bool estimate_is_fresh) noexcept 
   was_absent_ = (was_absent_ || absent) && mission_.under_way();
   if (was_absent_ && estimate_is_fresh) {
     was_absent_ = false;
-    mission_.hold(position_);
+    mission_.hold(position_, MissionCause::kAbsence);
   }
 }
 
-void PlannerTask::take_orders(Time now, bool estimate_is_fresh) noexcept {
-  const Time started = mission_.status().started;
-  const std::uint64_t aborts = mission_.status().aborts;
+void PlannerTask::take_orders(Time now) noexcept {
   while (const auto* order = orders_.next()) {
+    // What an order names was published before it.
+    if (const auto* definition = definitions_.latest(); definition != nullptr) {
+      mission_.set_at_hand(definition->value);
+    }
     mission_.take({order->value, order->sequence, order->stamp}, position_, now);
   }
-  if (mission_.status().aborts != aborts) {
-    options_.start_by_itself = false;  // not any more
+}
+
+void PlannerTask::take_tunables() noexcept {
+  const auto* tunables = tunables_.latest();
+  if (tunables == nullptr || tunables->value.version == tuned_) {
+    return;
   }
-  if (options_.start_by_itself && estimate_is_fresh) {
-    options_.start_by_itself = false;
-    mission_.start(now);
+  tuned_ = tunables->value.version;
+  mission_.limit_speed(tunables->value.speed_limit_m_s);
+  replanner_.tune(tunables->value);
+}
+
+void PlannerTask::watch_link(Time now) noexcept {
+  if (const auto* link = link_.latest(); link != nullptr) {
+    mission_.watch_link(link->value, position_, now);
   }
-  if (mission_.status().started != started) {
+}
+
+// A start, or another speed.
+void PlannerTask::sail_as_the_mission_says(Time now) noexcept {
+  const MissionStatus& status = mission_.status();
+  if (status.surge_ref != surge_ref_) {
+    surge_ref_ = status.surge_ref;
+    replanner_.sail_at(status.speed_m_s);
+    progress_.sail_at(status.speed_m_s);
+  }
+  if (status.started != started_) {
+    started_ = status.started;
     was_absent_ = false;
     replanner_.start(now);
     progress_.start(now);
@@ -122,7 +150,7 @@ void PlannerTask::replan(Time now) noexcept {
 
 void PlannerTask::replan_in_view(Time now) noexcept {
   if (const auto* path = sonar_path_.latest(); path != nullptr) {
-    publish(replanner_.answer(now, path->value, options_.sonar_range_m), now);
+    publish(replanner_.answer(now, path->value), now);
   }
   const auto* frame = obstacles_.fresh(now, max_age::kSonarFrame);
   if (frame == nullptr) {
@@ -141,14 +169,25 @@ void PlannerTask::replan_in_world(Time now) noexcept {
   if (state == nullptr || tracks == nullptr) {
     return;
   }
+  const Tracks& water = with_areas(tracks->value, now);
   if (const auto* path = sonar_path_.latest(); path != nullptr) {
-    publish(replanner_.answer(now, path->value, tracks->value, state->value), now);
+    publish(replanner_.answer(now, path->value, water, state->value), now);
   }
   const auto* request =
-      replanner_.request(now, tracks->value, state->value, mission_.goal(), mission_.holding());
+      replanner_.request(now, water, state->value, mission_.goal(), mission_.holding());
   if (request != nullptr) {
     requests_.publish(*request, now);
   }
+}
+
+const Tracks& PlannerTask::with_areas(const Tracks& tracks, Time now) noexcept {
+  const MissionDefinition& mission = mission_.definition();
+  if (mission.area_count == 0) {
+    return tracks;
+  }
+  *water_ = tracks;
+  add_areas({mission.areas.data(), mission.area_count}, now, *water_);
+  return *water_;
 }
 
 Missing PlannerTask::missing(Time now) noexcept {

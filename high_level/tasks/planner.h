@@ -2,6 +2,8 @@
 // The planner task: the mission and the paper's Fig. 1, step by step, and a watch over progress.
 #pragma once
 
+#include <memory>
+
 #include "high_level/guidance/replanner.h"
 #include "high_level/mission/mission.h"
 #include "high_level/mission/progress_watch.h"
@@ -13,8 +15,6 @@ struct PlannerOptions {
   ReplannerOptions replanner;
   MissionOptions mission;
   ProgressWatchOptions progress;
-  double sonar_range_m = 0.0;    // [m] > 0 the range setting, the radius of the sonar view
-  bool start_by_itself = false;  // as soon as there is an estimate, without an operator's word
 };
 
 class PlannerTask final : public Task {
@@ -26,13 +26,18 @@ class PlannerTask final : public Task {
   PlannerTask(Blackboard& board, Role role, PlannerOptions options);
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override {
-    return refused_by(orders_, vehicle_state_, obstacles_, tracks_, sonar_path_, attitude_,
-                      position_fix_, plan_, helm_, thrust_applied_);
+    return refused_by(definitions_, orders_, link_, tunables_, vehicle_state_, obstacles_, tracks_,
+                      sonar_path_, attitude_, position_fix_, plan_, helm_, thrust_applied_);
   }
 
  private:
   void hold_after_absence(Time now, bool estimate_is_fresh) noexcept;
-  void take_orders(Time now, bool estimate_is_fresh) noexcept;
+  void take_orders(Time now) noexcept;
+  void take_tunables() noexcept;
+  void watch_link(Time now) noexcept;
+  void sail_as_the_mission_says(Time now) noexcept;
+  // What is known of the water: the tracks, and the mission's areas as walls.
+  [[nodiscard]] const Tracks& with_areas(const Tracks& tracks, Time now) noexcept;
   void replan(Time now) noexcept;
   void replan_in_view(Time now) noexcept;
   void replan_in_world(Time now) noexcept;
@@ -51,8 +56,15 @@ class PlannerTask final : public Task {
   NoWayCause no_way_ = NoWayCause::kNone;
   WorldPoint position_;  // the last known
   Time stepped_{};
-  bool was_absent_ = false;  // under way, and its place is not known again yet
+  Time started_{};              // of the mission that the replanner was told of
+  bool was_absent_ = false;     // under way, and its place is not known again yet
+  std::uint64_t tuned_ = 0;     // Tunables::version taken on
+  std::int32_t surge_ref_ = 0;  // that the replanner was told of
+  std::unique_ptr<Tracks> water_ = std::make_unique<Tracks>();
+  Reader<MissionDefinition> definitions_;
   Reader<OperatorCommand> orders_;
+  Reader<CommandLink> link_;
+  Reader<Tunables> tunables_;
   Reader<VehicleState> vehicle_state_;
   Reader<SonarObstacles> obstacles_;
   Reader<Tracks> tracks_;

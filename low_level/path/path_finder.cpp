@@ -23,10 +23,10 @@ std::optional<PathPixel> nearest_pixel(const SonarView& view, const VehiclePoint
 }
 
 void PathFinder::find_path(const SonarObstacles& obstacles, const PathRequest& request,
-                           double range_m, SonarPath& out) noexcept {
+                           SonarPath& out) noexcept {
   SearchResult result{PathReason::kGoalOutOfView, 0, 0, {}};
-  if (range_m > 0.0 && std::isfinite(range_m)) {
-    const SonarView view{range_m};
+  if (obstacles.range_m > 0.0 && std::isfinite(obstacles.range_m)) {
+    const SonarView view{obstacles.range_m};
     draw(obstacles, view);
     const VehiclePoint goal{{request.goal_x_m, request.goal_y_m}};
     result = search_.search(grid_, kApex, nearest_pixel(view, goal).value_or(kOutOfView));
@@ -36,6 +36,7 @@ void PathFinder::find_path(const SonarObstacles& obstacles, const PathRequest& r
   out.request = request.id;
   out.frame = obstacles.frame;
   out.captured = obstacles.captured;
+  out.range_m = obstacles.range_m;
   out.reason = result.reason;
   out.cost_10_14 = result.cost_10_14;
   out.expansions = result.expansions;

@@ -26,7 +26,7 @@ class PathFinder {
   // pixel_count. The path starts at the apex. An obstacle that cannot be drawn (zone.h) blocks
   // the whole view: no path is better than one through it. A range that is not above zero has no
   // view, and so any goal is out of it.
-  void find_path(const SonarObstacles& obstacles, const PathRequest& request, double range_m,
+  void find_path(const SonarObstacles& obstacles, const PathRequest& request,
                  SonarPath& out) noexcept;
 
   // As the last find_path() left it.

@@ -114,6 +114,7 @@ void see_known_obstacles(std::span<const MovingObstacle> world, const KnownView&
   }
   out.frame = view.frame;
   out.captured = view.captured;
+  out.range_m = view.range_m;
   out.count = static_cast<std::uint32_t>(count);
 }
 

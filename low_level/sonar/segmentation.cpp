@@ -64,6 +64,7 @@ Segmenter::Segmenter(const SegmentationOptions& options)
 void Segmenter::segment(const SonarPing& ping, SonarObstacles& out) noexcept {
   out.frame = ping.number;
   out.captured = ping.captured;
+  out.range_m = ping.range_m;
   found_count_ = 0;
   dropped_ = 0;
   if (is_valid(ping)) {

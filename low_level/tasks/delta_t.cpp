@@ -16,18 +16,17 @@ DeltaTTask::DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaT
       mission_status_{board.mission_status},
       pings_{board.sonar_ping, role, "sonar_ping"},
       obstacles_{board.sonar_obstacles, role, "sonar_obstacles"},
-      tracks_{board.tracks, role, "tracks"} {
+      tracks_{board.tracks, role, "tracks"},
+      device_{board, role, DeviceId::kSonar, max_age::kSonarFrame} {
   if (options_.known_scene) {
     oracle_.emplace(*options_.known_scene, options_.track_oracle);
   }
 }
 
 void DeltaTTask::step(Time now) noexcept {
-  if (sonar_.poll(now, *ping_) != ReadStatus::kFresh) {
-    return;
-  }
-  if (!sane(*ping_)) {
-    ++refused_pings_;
+  const bool taken = take_ping(now);
+  device_.publish(now);
+  if (!taken) {
     return;
   }
   pings_.publish(*ping_, now);
@@ -47,6 +46,13 @@ void DeltaTTask::step(Time now) noexcept {
   }
 }
 
+bool DeltaTTask::take_ping(Time now) noexcept {
+  const ReadStatus status = sonar_.poll(now, *ping_);
+  const bool believed = status == ReadStatus::kFresh && sane(*ping_);
+  device_.keeper().polled(status, believed, now);
+  return believed;
+}
+
 bool DeltaTTask::place_frame(Time now) noexcept {
   const auto* state = vehicle_state_.fresh(now, max_age::kVehicleState);
   if (state == nullptr) {
@@ -64,12 +70,12 @@ bool DeltaTTask::see_known_scene(Time now) noexcept {
     return false;
   }
   const auto* mission = mission_status_.latest();
-  const bool started = mission != nullptr && mission->value.started != Time{};
+  const bool started = mission != nullptr && mission->value.first_started != Time{};
   const VehicleState& at = state->value;
   KnownView view;
   view.frame = ping_->number;
   view.captured = at.valid_at;  // the pose they are drawn at is the pose they belong to
-  view.scenario_time_s = started ? to_seconds(at.valid_at - mission->value.started) : 0.0;
+  view.scenario_time_s = started ? to_seconds(at.valid_at - mission->value.first_started) : 0.0;
   view.pose = {{{at.x_m, at.y_m}}, Heading::clockwise_from_y_rad(at.heading_rad)};
   view.range_m = ping_->range_m;
   see_known_obstacles(*options_.known_scene, view, *seen_);

@@ -12,6 +12,7 @@
 #include "low_level/sonar/protection.h"
 #include "low_level/sonar/segmentation.h"
 #include "low_level/sonar/track_oracle.h"
+#include "low_level/tasks/device_report.h"
 #include "mid_level/geometry/moving_obstacle.h"
 #include "mid_level/runtime/task.h"
 
@@ -30,10 +31,12 @@ class DeltaTTask final : public Task {
   DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaTOptions options);
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override {
-    return refused_pings_ + refused_by(vehicle_state_, mission_status_);
+    return device_.refused() + refused_by(vehicle_state_, mission_status_);
   }
 
  private:
+  // Whether there is a ping that can be believed.
+  [[nodiscard]] bool take_ping(Time now) noexcept;
   // False when the estimate is stale: then nothing is known of where the obstacles are.
   [[nodiscard]] bool see_known_scene(Time now) noexcept;
   // Tracks of what was just seen, at the newest estimate; false when that is stale.
@@ -48,7 +51,7 @@ class DeltaTTask final : public Task {
   Writer<SonarObstacles> obstacles_;
   Writer<Tracks> tracks_;
   std::optional<TrackOracle> oracle_;
-  std::uint64_t refused_pings_ = 0;
+  DeviceReport device_;
   // Too large for a stack.
   std::unique_ptr<SonarPing> ping_ = std::make_unique<SonarPing>();
   std::unique_ptr<SonarObstacles> seen_ = std::make_unique<SonarObstacles>();

@@ -10,21 +10,15 @@ namespace lodesman {
 LowLevel::LowLevel(Blackboard& board, Role role, LowLevelDevices devices, LowLevelOptions options)
     : devices_{std::move(devices)},
       ahrs_{board, role, *devices_.heading},
-      position_{devices_.position != nullptr
-                    ? std::make_unique<PositionTask>(board, role, *devices_.position)
-                    : nullptr},
+      position_{board, role, devices_.position.get()},
       delta_t_{board, role, *devices_.sonar, std::move(options.delta_t)},
-      path_finder_{board, role, options.sonar_range_m},
-      thruster_{board, role, *devices_.thrusters} {}
+      path_finder_{board, role},
+      thruster_{board, role, devices_.thrusters.get()} {}
 
 std::vector<TaskEntry> LowLevel::tasks() {
-  std::vector<TaskEntry> entries{
-      scheduled(TaskId::kAhrs, ahrs_), scheduled(TaskId::kDeltaT, delta_t_),
-      scheduled(TaskId::kPathFinder, path_finder_), scheduled(TaskId::kThruster, thruster_)};
-  if (position_ != nullptr) {
-    entries.push_back(scheduled(TaskId::kPosition, *position_));
-  }
-  return entries;
+  return {scheduled(TaskId::kAhrs, ahrs_), scheduled(TaskId::kPosition, position_),
+          scheduled(TaskId::kDeltaT, delta_t_), scheduled(TaskId::kPathFinder, path_finder_),
+          scheduled(TaskId::kThruster, thruster_)};
 }
 
 }  // namespace lodesman

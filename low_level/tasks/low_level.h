@@ -18,12 +18,11 @@ struct LowLevelDevices {
   std::unique_ptr<HeadingSensor> heading;
   std::unique_ptr<ImagingSonar> sonar;
   std::unique_ptr<PositionSensor> position;  // none where the boat has no receiver
-  std::unique_ptr<ThrusterPair> thrusters;
+  std::unique_ptr<ThrusterPair> thrusters;   // none on a dry run
 };
 
 struct LowLevelOptions {
   DeltaTOptions delta_t;
-  double sonar_range_m = 0.0;  // [m] > 0 the range setting
 };
 
 class LowLevel {
@@ -34,7 +33,7 @@ class LowLevel {
  private:
   LowLevelDevices devices_;
   AhrsTask ahrs_;
-  std::unique_ptr<PositionTask> position_;
+  PositionTask position_;
   DeltaTTask delta_t_;
   PathFinderTask path_finder_;
   ThrusterTask thruster_;

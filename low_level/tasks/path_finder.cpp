@@ -7,9 +7,8 @@
 
 namespace lodesman {
 
-PathFinderTask::PathFinderTask(Blackboard& board, Role role, double range_m)
-    : range_m_{range_m},
-      requests_{board.path_request},
+PathFinderTask::PathFinderTask(Blackboard& board, Role role)
+    : requests_{board.path_request},
       obstacles_{board.sonar_obstacles},
       paths_{board.sonar_path, role, "sonar_path"} {
   // What was asked before this task existed is nobody's question any more.
@@ -51,17 +50,19 @@ void PathFinderTask::find_in_view(const PathRequest& request) noexcept {
     path_->request = request.id;
     path_->frame = request.frame;
     path_->reason = PathReason::kNoFrame;
+    path_->range_m = 0.0;
     path_->cost_10_14 = 0;
     path_->expansions = 0;
     path_->pixel_count = 0;
   } else {
-    finder_.find_path(newest->value, request, range_m_, *path_);
+    finder_.find_path(newest->value, request, *path_);
   }
 }
 
 void PathFinderTask::find_in_world(const PathRequest& request) noexcept {
   path_->request = request.id;
   path_->frame = request.frame;
+  path_->range_m = 0.0;
   path_->captured = Time{};  // what it was planned in came with the request
   path_->cost_10_14 = 0;
   path_->pixel_count = 0;

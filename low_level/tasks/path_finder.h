@@ -13,8 +13,7 @@ namespace lodesman {
 
 class PathFinderTask final : public Task {
  public:
-  // range_m: the sonar's range setting [m] > 0, the radius of the sonar view.
-  PathFinderTask(Blackboard& board, Role role, double range_m);
+  PathFinderTask(Blackboard& board, Role role);
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override {
     return refused_by(requests_, obstacles_);
@@ -25,7 +24,6 @@ class PathFinderTask final : public Task {
   void find_in_view(const PathRequest& request) noexcept;
   void find_in_world(const PathRequest& request) noexcept;
 
-  double range_m_;
   PathFinder finder_;
   WorldPathFinder world_finder_;
   Reader<PathRequest> requests_;

@@ -7,28 +7,38 @@ namespace {
 // More samples than any device buffers between two steps; what is left comes with the next step.
 constexpr int kMaxSamplesPerStep = 16;
 
-// Gives how many samples were not sane: they are dropped, as if the device had been silent.
+// What is not sane is dropped, as if the device had been silent.
 template <class Sensor, class Sample>
-[[nodiscard]] std::uint64_t publish_all(Sensor& sensor, Writer<Sample>& writer, Time now) noexcept {
-  std::uint64_t refused = 0;
+void publish_all(Sensor& sensor, Writer<Sample>& writer, DeviceReport& device, Time now) noexcept {
   for (int i = 0; i < kMaxSamplesPerStep; ++i) {
     const auto reading = sensor.poll(now);
+    // The end of what there was says nothing of the device.
+    if (reading.status == ReadStatus::kNothingNew && i > 0) {
+      break;
+    }
+    const bool believed = reading.status == ReadStatus::kFresh && sane(reading.sample);
+    device.keeper().polled(reading.status, believed, now);
+    if (believed) {
+      writer.publish(reading.sample, now);
+    }
     if (reading.status == ReadStatus::kNothingNew || reading.status == ReadStatus::kDisconnected) {
       break;
     }
-    if (reading.status == ReadStatus::kFresh && sane(reading.sample)) {
-      writer.publish(reading.sample, now);
-    } else if (reading.status == ReadStatus::kFresh) {
-      ++refused;
-    }
   }
-  return refused;
+  device.publish(now);
 }
 
 }  // namespace
 
-void AhrsTask::step(Time now) noexcept { refused_ += publish_all(sensor_, attitudes_, now); }
+void AhrsTask::step(Time now) noexcept { publish_all(sensor_, attitudes_, device_, now); }
 
-void PositionTask::step(Time now) noexcept { refused_ += publish_all(sensor_, fixes_, now); }
+void PositionTask::step(Time now) noexcept {
+  if (sensor_ == nullptr) {
+    device_.keeper().absent(now);
+    device_.publish(now);
+    return;
+  }
+  publish_all(*sensor_, fixes_, device_, now);
+}
 
 }  // namespace lodesman

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The AHRS and position tasks: publish what the devices say, each sample once,
-// but for what is not sane. Each is stepped by
-// its runner's thread.
+// The AHRS and position tasks: publish what the devices say, each sample once, but for what is not
+// sane, and how the devices are. Each is stepped by its runner's thread.
 #pragma once
 
 #include "drivers/hal/devices.h"
+#include "low_level/tasks/device_report.h"
 #include "mid_level/runtime/task.h"
 
 namespace lodesman {
@@ -12,27 +12,32 @@ namespace lodesman {
 class AhrsTask final : public Task {
  public:
   AhrsTask(Blackboard& board, Role role, HeadingSensor& sensor)
-      : sensor_{sensor}, attitudes_{board.attitude, role, "attitude"} {}
+      : sensor_{sensor},
+        attitudes_{board.attitude, role, "attitude"},
+        device_{board, role, DeviceId::kHeading, max_age::kAttitude} {}
   void step(Time now) noexcept override;
-  [[nodiscard]] std::uint64_t refused() const noexcept override { return refused_; }
+  [[nodiscard]] std::uint64_t refused() const noexcept override { return device_.refused(); }
 
  private:
   HeadingSensor& sensor_;
   Writer<Attitude> attitudes_;
-  std::uint64_t refused_ = 0;
+  DeviceReport device_;
 };
 
 class PositionTask final : public Task {
  public:
-  PositionTask(Blackboard& board, Role role, PositionSensor& sensor)
-      : sensor_{sensor}, fixes_{board.position_fix, role, "position_fix"} {}
+  // Without a sensor there are no fixes, and that is said.
+  PositionTask(Blackboard& board, Role role, PositionSensor* sensor)
+      : sensor_{sensor},
+        fixes_{board.position_fix, role, "position_fix"},
+        device_{board, role, DeviceId::kPosition, max_age::kPositionFix} {}
   void step(Time now) noexcept override;
-  [[nodiscard]] std::uint64_t refused() const noexcept override { return refused_; }
+  [[nodiscard]] std::uint64_t refused() const noexcept override { return device_.refused(); }
 
  private:
-  PositionSensor& sensor_;
+  PositionSensor* sensor_;
   Writer<PositionFix> fixes_;
-  std::uint64_t refused_ = 0;
+  DeviceReport device_;
 };
 
 }  // namespace lodesman

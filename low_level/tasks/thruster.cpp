@@ -10,12 +10,24 @@ void ThrusterTask::step(Time now) noexcept {
   const ThrustCommand thrust = map_thrust(wanted.surge_ref, wanted.head_ref);
   wanted.left = thrust.left;
   wanted.right = thrust.right;
-  if (!thrusters_.command(thrust, now)) {
+  if (const ThrustReason done = command(thrust, now); done != ThrustReason::kCommanded) {
     // Nobody downstream may reckon with it.
     wanted = ThrustApplied{};
-    wanted.reason = ThrustReason::kDeviceFailed;
+    wanted.reason = done;
   }
   applied_.publish(wanted, now);
+  device_.publish(now);
+}
+
+// kCommanded where the box took it, else why it did not.
+ThrustReason ThrusterTask::command(ThrustCommand thrust, Time now) noexcept {
+  if (thrusters_ == nullptr) {
+    device_.keeper().absent(now);
+    return ThrustReason::kNoThrusters;
+  }
+  const bool taken = thrusters_->command(thrust, now);
+  device_.keeper().commanded(taken, now);
+  return taken ? ThrustReason::kCommanded : ThrustReason::kDeviceFailed;
 }
 
 // One look at the helm: what is fresh now stays so for this step.
@@ -39,8 +51,8 @@ ThrustApplied ThrusterTask::as_commanded(Time now) noexcept {
 
 void ThrusterTask::enter_safe_state(Time now) noexcept {
   ThrustApplied neutral;
-  if (!thrusters_.command(kNeutralThrust, now)) {
-    neutral.reason = ThrustReason::kDeviceFailed;
+  if (const ThrustReason done = command(kNeutralThrust, now); done != ThrustReason::kCommanded) {
+    neutral.reason = done;
   }
   applied_.publish(neutral, now);
 }

@@ -6,16 +6,19 @@
 #pragma once
 
 #include "drivers/hal/devices.h"
+#include "low_level/tasks/device_report.h"
 #include "mid_level/runtime/task.h"
 
 namespace lodesman {
 
 class ThrusterTask final : public Task {
  public:
-  ThrusterTask(Blackboard& board, Role role, ThrusterPair& thrusters)
+  // Without thrusters nothing is applied, and that is said.
+  ThrusterTask(Blackboard& board, Role role, ThrusterPair* thrusters)
       : thrusters_{thrusters},
         helm_{board.helm_command},
-        applied_{board.thrust_applied, role, "thrust_applied"} {}
+        applied_{board.thrust_applied, role, "thrust_applied"},
+        device_{board, role, DeviceId::kThrusters, max_age::kThrustApplied} {}
 
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override { return helm_.refused(); }
@@ -23,10 +26,12 @@ class ThrusterTask final : public Task {
 
  private:
   [[nodiscard]] ThrustApplied as_commanded(Time now) noexcept;
+  [[nodiscard]] ThrustReason command(ThrustCommand thrust, Time now) noexcept;
 
-  ThrusterPair& thrusters_;
+  ThrusterPair* thrusters_;
   Reader<HelmCommand> helm_;
   Writer<ThrustApplied> applied_;
+  DeviceReport device_;
 };
 
 }  // namespace lodesman

@@ -10,6 +10,7 @@
 #include "mid_level/blackboard/channel.h"
 #include "mid_level/messages/command.h"
 #include "mid_level/messages/health.h"
+#include "mid_level/messages/mission.h"
 #include "mid_level/messages/path.h"
 #include "mid_level/messages/sonar.h"
 #include "mid_level/messages/tracks.h"
@@ -43,6 +44,7 @@ inline constexpr Duration kSonarFrame = milliseconds{2000};
 inline constexpr Duration kMissionStatus = milliseconds{400};
 inline constexpr Duration kHelmCommand = milliseconds{300};
 inline constexpr Duration kThrustApplied = milliseconds{500};
+inline constexpr Duration kDeviceHealth = milliseconds{3000};
 inline constexpr Duration kNoLimit{};
 }  // namespace max_age
 
@@ -57,10 +59,14 @@ struct Blackboard {
   Channel<PathRequest, 8> path_request;
   Channel<SonarPath, 8> sonar_path;
   Channel<Plan, 16> plan;
+  Channel<MissionDefinition, 4> mission_definition;
   Channel<OperatorCommand, 8> operator_command;
+  Channel<CommandLink, 8> command_link;
+  Channel<Tunables, 4> tunables;
   Channel<MissionStatus, 64> mission_status;
   Channel<HelmCommand, 64> helm_command;
   Channel<ThrustApplied, 64> thrust_applied;
+  std::array<Channel<DeviceHealth, 4>, kDeviceCount> device_health;
   std::array<Channel<TaskHealth, 2>, kTaskCount> task_health;
 };
 
@@ -71,6 +77,18 @@ struct ChannelInfo {
   const char* writer_task;
   Duration max_age;  // zero: no limit
 };
+
+// By DeviceId: its health's channel, and the task that owns it.
+struct DeviceInfo {
+  const char* channel;
+  const char* task;
+};
+inline constexpr std::array<DeviceInfo, kDeviceCount> kDeviceInfo{{
+    {"heading_device", "ahrs"},
+    {"sonar_device", "delta_t"},
+    {"position_device", "position"},
+    {"thruster_device", "thruster"},
+}};
 
 // Calls visit(ChannelInfo, channel) for every channel, in the order of the struct.
 template <class Board, class Visit>
@@ -88,14 +106,24 @@ void for_each_channel(Board& board, Visit visit) {
   visit(ChannelInfo{"path_request", Role::kHigh, "planner", max_age::kNoLimit}, board.path_request);
   visit(ChannelInfo{"sonar_path", Role::kLow, "path_finder", max_age::kNoLimit}, board.sonar_path);
   visit(ChannelInfo{"plan", Role::kHigh, "planner", max_age::kNoLimit}, board.plan);
+  visit(ChannelInfo{"mission_definition", Role::kHigh, "command socket", max_age::kNoLimit},
+        board.mission_definition);
   visit(ChannelInfo{"operator_command", Role::kHigh, "command socket", max_age::kNoLimit},
         board.operator_command);
+  visit(ChannelInfo{"command_link", Role::kHigh, "command socket", max_age::kNoLimit},
+        board.command_link);
+  visit(ChannelInfo{"tunables", Role::kHigh, "command socket", max_age::kNoLimit}, board.tunables);
   visit(ChannelInfo{"mission_status", Role::kHigh, "planner", max_age::kMissionStatus},
         board.mission_status);
   visit(ChannelInfo{"helm_command", Role::kHigh, "controller", max_age::kHelmCommand},
         board.helm_command);
   visit(ChannelInfo{"thrust_applied", Role::kLow, "thruster", max_age::kThrustApplied},
         board.thrust_applied);
+  for (std::size_t i = 0; i < kDeviceCount; ++i) {
+    const DeviceInfo& info = kDeviceInfo[i];
+    visit(ChannelInfo{info.channel, Role::kLow, info.task, max_age::kDeviceHealth},
+          board.device_health[i]);
+  }
   for (std::size_t i = 0; i < kTaskCount; ++i) {
     const auto task = static_cast<TaskId>(i);
     const bool high =

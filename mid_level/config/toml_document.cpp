@@ -295,6 +295,37 @@ std::vector<std::array<double, 2>> TomlTable::pairs(std::string_view key, Range 
   return points;
 }
 
+std::vector<std::vector<std::array<double, 2>>> TomlTable::polygons(std::string_view key,
+                                                                    Range range,
+                                                                    std::size_t min_corners,
+                                                                    std::size_t max_corners,
+                                                                    std::size_t max_count) const {
+  const auto* array = static_cast<const toml::node*>(require(key))->as_array();
+  const auto is_list_of_lists = [](const toml::node& node) {
+    return node.is_array() && !node.as_array()->empty() && (*node.as_array())[0].is_array();
+  };
+  std::vector<std::vector<std::array<double, 2>>> polygons;
+  if (array != nullptr && !array->empty() && !is_list_of_lists((*array)[0])) {
+    polygons.push_back(pairs(key, range, min_corners, max_corners));
+    return polygons;
+  }
+  if (array == nullptr || array->size() > max_count) {
+    refuse(key, "must be at most " + std::to_string(max_count) + " polygons [[[x, y], ...], ...]");
+  }
+  for (const auto& node : *array) {
+    const auto* corners = node.as_array();
+    if (corners == nullptr || corners->size() < min_corners || corners->size() > max_corners) {
+      refuse(key, "each polygon must have " + std::to_string(min_corners) + " to " +
+                      std::to_string(max_corners) + " points [x, y]");
+    }
+    polygons.emplace_back();
+    for (const auto& corner : *corners) {
+      polygons.back().push_back(pair_of(corner, *document_, path_of(key), range));
+    }
+  }
+  return polygons;
+}
+
 TomlTable TomlTable::table(std::string_view key) const {
   const auto* node = static_cast<const toml::node*>(require(key));
   if (!node->is_table()) {

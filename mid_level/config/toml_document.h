@@ -94,6 +94,10 @@ class TomlTable {
   [[nodiscard]] std::vector<std::array<double, 2>> pairs(std::string_view key, Range range,
                                                          std::size_t min_count,
                                                          std::size_t max_count) const;
+  // Lists of points; one list alone is taken for a list of one.
+  [[nodiscard]] std::vector<std::vector<std::array<double, 2>>> polygons(
+      std::string_view key, Range range, std::size_t min_corners, std::size_t max_corners,
+      std::size_t max_count) const;
   [[nodiscard]] TomlTable table(std::string_view key) const;
   // [[key]] tables; none when the key is absent.
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key, std::size_t max_count) const;

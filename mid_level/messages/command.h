@@ -23,11 +23,13 @@ enum class OperatorOrder : std::uint8_t { kNone, kStart, kAbort, kHold, kResume 
 // planner task, where the mission lives.
 struct OperatorCommand {
   OperatorOrder order = OperatorOrder::kNone;
-  std::uint64_t aborts = 0;  // [-] ordered on this blackboard so far, this one included
+  std::uint64_t aborts = 0;   // [-] ordered on this blackboard so far, this one included
+  std::uint64_t mission = 0;  // [-] start: MissionDefinition::id; 0: the one at hand
 
   static constexpr auto fields() noexcept {
     return std::tuple{field("order", &OperatorCommand::order),
-                      field("aborts", &OperatorCommand::aborts)};
+                      field("aborts", &OperatorCommand::aborts),
+                      field("mission", &OperatorCommand::mission)};
   }
 };
 
@@ -45,10 +47,21 @@ enum class OrderAnswer : std::uint8_t {
   kNotHolding,   // refused: nothing to resume
   kAborted,      // refused: an abort stood beside it
   kTooOld,       // refused: it was not taken in time
+  kNoMission,    // refused: there is none to start
 };
 [[nodiscard]] constexpr auto enumerators(OrderAnswer) noexcept {
-  return enumerators_to<OrderAnswer::kTooOld>("none", "obeyed", "not_under_way", "not_holding",
-                                              "aborted", "too_old");
+  return enumerators_to<OrderAnswer::kNoMission>("none", "obeyed", "not_under_way", "not_holding",
+                                                 "aborted", "too_old", "no_mission");
+}
+
+// Who brought the mission into its state.
+enum class MissionCause : std::uint8_t {
+  kOrder,     // an operator's word, or the voyage itself
+  kAbsence,   // its process was frozen
+  kLinkLost,  // the commander's heartbeat was lost
+};
+[[nodiscard]] constexpr auto enumerators(MissionCause) noexcept {
+  return enumerators_to<MissionCause::kLinkLost>("order", "absence", "link_lost");
 }
 
 // Why no way is made over ground though it is wanted.
@@ -70,6 +83,11 @@ enum class NoWayCause : std::uint8_t {
 // time starts with the mission) and displays.
 struct MissionStatus {
   MissionState state = MissionState::kIdle;
+  MissionCause cause = MissionCause::kOrder;
+  std::uint64_t mission = 0;     // [-] MissionDefinition::id; 0: none yet
+  double speed_m_s = 0.0;        // [m/s] of that mission, through the water
+  std::int32_t surge_ref = 0;    // [-] [0, 100] that holds it, by the boat's own calibration
+  Time first_started{};          // [ns] of the first start; a scenario's time begins there
   Time started{};                // [ns] of the last start; 0 before one
   Time ended{};                  // [ns] when it was reached or aborted
   std::uint32_t goal_index = 0;  // [-] of the goal made for: mission waypoints first, goal last
@@ -84,6 +102,11 @@ struct MissionStatus {
   static constexpr auto fields() noexcept {
     using M = MissionStatus;
     return std::tuple{field("state", &M::state),
+                      field("cause", &M::cause),
+                      field("mission", &M::mission),
+                      field("speed_m_s", &M::speed_m_s).within(0.0, 100.0),
+                      field("surge_ref", &M::surge_ref).within(0, 100),
+                      field("first_started", &M::first_started),
                       field("started", &M::started),
                       field("ended", &M::ended),
                       field("goal_index", &M::goal_index),
@@ -266,10 +289,11 @@ enum class ThrustReason : std::uint8_t {
   kNoCommand,     // the helm has not spoken yet: neutral
   kStaleCommand,  // the helm has fallen silent: neutral
   kDeviceFailed,  // the thruster box does not take commands
+  kNoThrusters,   // the configuration has none
 };
 [[nodiscard]] constexpr auto enumerators(ThrustReason) noexcept {
-  return enumerators_to<ThrustReason::kDeviceFailed>("commanded", "no_command", "stale_command",
-                                                     "device_failed");
+  return enumerators_to<ThrustReason::kNoThrusters>("commanded", "no_command", "stale_command",
+                                                    "device_failed", "no_thrusters");
 }
 
 // Written by the thruster task at 20 Hz, after the box took the command; where it took none, all is

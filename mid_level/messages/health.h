@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the tasks themselves are doing.
+// How the tasks themselves are doing, and the devices.
 // Plain data for the blackboard; any thread.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
+#include "mid_level/base/time.h"
 #include "mid_level/messages/fields.h"
 
 namespace lodesman {
@@ -36,6 +37,45 @@ struct TaskHealth {
                       measured_field("worst_late_ns", &T::worst_late_ns),
                       measured_field("fifo_priority", &T::fifo_priority),
                       measured_field("late", &T::late)};
+  }
+};
+
+// In the order of the configuration's section [devices].
+enum class DeviceId : std::uint8_t { kHeading, kSonar, kPosition, kThrusters };
+[[nodiscard]] constexpr auto enumerators(DeviceId) noexcept {
+  return enumerators_to<DeviceId::kThrusters>("heading", "sonar", "position", "thrusters");
+}
+inline constexpr std::size_t kDeviceCount = 4;
+
+enum class DeviceStatus : std::uint8_t {
+  kAbsent,        // the configuration has none
+  kAwaited,       // nothing has come yet
+  kWorking,       // what comes, or is taken, is whole
+  kSilent,        // nothing has come for longer than its readers wait
+  kCorrupt,       // what came last fails its check
+  kRefused,       // what came last is whole but cannot be
+  kDisconnected,  // gone, or takes no commands
+};
+[[nodiscard]] constexpr auto enumerators(DeviceStatus) noexcept {
+  return enumerators_to<DeviceStatus::kDisconnected>("absent", "awaited", "working", "silent",
+                                                     "corrupt", "refused", "disconnected");
+}
+
+// Written by the task that owns the device, at each change of its status and once a second; read by
+// displays and by the command socket.
+struct DeviceHealth {
+  DeviceStatus status = DeviceStatus::kAwaited;
+  Time since{};                      // [ns] when it came to have that status
+  std::uint64_t samples = 0;         // [-] whole ones so far, or commands taken
+  std::uint64_t corrupt = 0;         // [-] that failed their check
+  std::uint64_t refused = 0;         // [-] that could not be
+  std::uint64_t disconnections = 0;  // [-] how often it went
+
+  static constexpr auto fields() noexcept {
+    using D = DeviceHealth;
+    return std::tuple{field("status", &D::status),   field("since", &D::since),
+                      field("samples", &D::samples), field("corrupt", &D::corrupt),
+                      field("refused", &D::refused), field("disconnections", &D::disconnections)};
   }
 };
 

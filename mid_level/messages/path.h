@@ -119,6 +119,7 @@ struct SonarPath {
   std::uint64_t request = 0;  // [-] PathRequest::id
   std::uint64_t frame = 0;    // [-] SonarObstacles::frame it was planned in
   Time captured{};            // [ns] capture time of that frame
+  double range_m = 0.0;       // [m] [0, 300] that frame's: the radius of the sonar view
   PathReason reason = PathReason::kNoPath;
   std::int32_t cost_10_14 = 0;   // [-] 10 a straight and 14 a diagonal step; 0 where not found
   std::uint32_t expansions = 0;  // [-] nodes taken from the open list
@@ -143,6 +144,7 @@ struct SonarPath {
     return std::tuple{field("request", &P::request),
                       field("frame", &P::frame),
                       field("captured", &P::captured),
+                      field("range_m", &P::range_m).within(0.0, 300.0),
                       field("reason", &P::reason),
                       field("cost_10_14", &P::cost_10_14),
                       field("expansions", &P::expansions),

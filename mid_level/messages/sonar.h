@@ -60,6 +60,7 @@ struct SonarPing {
 struct SonarObstacles {
   std::uint64_t frame = 0;    // [-] number of the ping they were found in, or stand for
   Time captured{};            // [ns] the vehicle's pose at this time is the frame they are given in
+  double range_m = 0.0;       // [m] [0.01, 300] of the ping: the radius of the sonar view
   std::uint32_t dropped = 0;  // [-] obstacles that found no room (the farthest ones)
   std::uint32_t count = 0;    // [-] [0, kMaxObstacles]
   std::array<Obstacle, kMaxObstacles> obstacles{};
@@ -72,8 +73,11 @@ struct SonarObstacles {
 
   static constexpr auto fields() noexcept {
     using O = SonarObstacles;
-    return std::tuple{field("frame", &O::frame), field("captured", &O::captured),
-                      field("dropped", &O::dropped), field("count", &O::count),
+    return std::tuple{field("frame", &O::frame),
+                      field("captured", &O::captured),
+                      field("range_m", &O::range_m).within(0.0, 300.0),
+                      field("dropped", &O::dropped),
+                      field("count", &O::count),
                       field("obstacles", &O::obstacles, &O::count)};
   }
 };

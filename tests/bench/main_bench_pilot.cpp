@@ -40,8 +40,8 @@ struct Cost {
 };
 
 Cost sail(const std::string& scenario_name) {
-  const TomlDocument configuration = load_configuration("default", {});
-  const Scenario scenario = load_named_scenario(scenario_name);
+  const BoatConfig configuration = load_configuration("default", {});
+  const Scenario scenario = load_named_scenario(scenario_name, configuration.speeds);
   const std::function<bool()> never = [] { return false; };
   const std::function<void(const cli::RunProgress&)> silent = [](const cli::RunProgress&) {};
   Cost cost;

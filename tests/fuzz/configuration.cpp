@@ -2,7 +2,6 @@
 #include <cstdlib>
 
 #include "deploy/boat/configuration.h"
-#include "deploy/boat/level_options.h"
 #include "tests/fuzz/oracle.h"
 #include "tests/fuzz/outside_file.h"
 #include "tests/fuzz/targets.h"
@@ -11,17 +10,14 @@ namespace lodesman::fuzz {
 namespace {
 
 // Other processes are handed the whole configuration as a text: it must say the same there.
-void require_handed_on(const TomlDocument& accepted) {
+void require_handed_on(const BoatConfig& accepted) {
   const std::string text = accepted.to_text();
   try {
-    const TomlDocument handed_on = TomlDocument::from_text(text, "handed-on.toml");
-    (void)read_low_level_options(handed_on.root());
-    (void)read_high_level_options(handed_on.root());
-    (void)command_socket_settings(handed_on);
-    (void)device_addresses(handed_on);
-    (void)simulation_settings(handed_on);
-    handed_on.require_all_keys_read();
-    require(handed_on.to_text() == text, "a configuration changes when it is handed on");
+    const OutsideFile file{text};
+    CommonOptions options;
+    options.config_files = {file.path()};
+    require(load_configuration("default", options).to_text() == text,
+            "a configuration changes when it is handed on");
   } catch (const StartupError& error) {
     throw Violation{std::string{"an accepted configuration is refused when handed on: "} +
                     error.what()};

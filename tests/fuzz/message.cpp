@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "deploy/boat/configuration.h"
-#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/named_scenario.h"
 #include "deploy/boat/voyage.h"
 #include "high_level/tasks/high_level.h"
 #include "low_level/tasks/path_finder.h"
@@ -88,10 +88,9 @@ void overlay(Channel<T, kDepth>& channel, std::string_view input) {
 
 [[nodiscard]] const HighLevelOptions& high_options(bool in_world) {
   static const auto make = [](const char* profile) {
-    HighLevelOptions options =
-        high_level_options(load_configuration(profile, {}), load_named_scenario("paper-moving"));
-    options.planner.start_by_itself = true;
-    return options;
+    const BoatConfig config = load_configuration(profile, {});
+    const Scenario scenario = load_named_scenario("paper-moving", config.speeds);
+    return high_level_options(config, voyage_of(config, &scenario));
   };
   static const HighLevelOptions kWorld = make("default");
   static const HighLevelOptions kView = make("paper");
@@ -106,8 +105,8 @@ void message(std::string_view input) {
   const auto board = std::make_unique<Blackboard>();
   AnyThrusters box;
   HighLevel high{*board, Role::kHigh, high_options(chosen % 2 == 0)};
-  PathFinderTask path_finder{*board, Role::kLow, 30.0};
-  ThrusterTask thruster{*board, Role::kLow, box};
+  PathFinderTask path_finder{*board, Role::kLow};
+  ThrusterTask thruster{*board, Role::kLow, &box};
   RecordingHash onlooker{*board};
   lay_good_values(*board);
   std::size_t index = 0;

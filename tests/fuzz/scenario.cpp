@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hal_sim/world/world.h"
+#include "mid_level/config/read_speed_table.h"
 #include "tests/fuzz/oracle.h"
 #include "tests/fuzz/targets.h"
 
@@ -12,8 +13,12 @@ namespace lodesman::fuzz {
 void scenario(std::string_view input) {
   static const VesselParameters vessel =
       load_vessel(LODESMAN_SOURCE_DIR "/deploy/config/vessel.toml");
+  static const SpeedTable speeds =
+      read_speed_table(TomlDocument::from_file(LODESMAN_SOURCE_DIR "/deploy/config/default.toml")
+                           .root()
+                           .table("vehicle"));
   accepted_or_refused([&] {
-    const Scenario scenario = read_scenario(TomlDocument::from_text(input, "s.toml"), vessel);
+    const Scenario scenario = read_scenario(TomlDocument::from_text(input, "s.toml"), speeds);
     require(scenario.obstacles.size() <= kMaxObstacles, "more obstacles than a frame holds");
     // What is accepted can be simulated.
     World world{scenario, vessel};

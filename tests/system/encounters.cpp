@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/named_scenario.h"
 #include "tests/support/catch.h"
 #include "tests/system/escape.h"
 #include "tests/system/judged_run.h"

@@ -7,15 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "deploy/boat/configuration.h"
-#include "deploy/boat/scenario_voyage.h"
-#include "deploy/boat/simulation.h"
+#include "deploy/boat/assembled_boat.h"
 #include "deploy/boat/voyage.h"
 #include "deploy/operator/run/watcher.h"
 #include "mid_level/recording/recording_hash.h"
 #include "mid_level/runtime/run_lockstep.h"
 #include "tests/support/catch.h"
 #include "tests/support/forgery.h"
+#include "tests/support/self_start.h"
 
 using namespace lodesman;
 using namespace lodesman::testing;
@@ -42,10 +41,11 @@ class ForgedBoat {
  public:
   ForgedBoat(const std::string& profile, const std::string& scenario_name)
       : configuration_{load_configuration(profile, {})},
-        scenario_{load_named_scenario(scenario_name)},
-        boat_{*board_, configuration_, scenario_},
-        options_{high_options()},
-        high_{*board_, Role::kHigh, options_},
+        scenario_{load_named_scenario(scenario_name, configuration_.speeds)},
+        boat_{*board_, configuration_, &scenario_},
+        high_{*board_, Role::kHigh,
+              high_level_options(configuration_, voyage_of(configuration_, &scenario_))},
+        self_start_{*board_, configuration_, scenario_, [this] { return clock_.now(); }},
         watcher_{*board_, scenario_, 0.5} {
     std::vector<TaskEntry> entries = boat_.tasks();
     for (const TaskEntry& entry : high_.tasks()) {
@@ -58,6 +58,7 @@ class ForgedBoat {
   [[nodiscard]] Blackboard& board() noexcept { return *board_; }
   void step() {
     runner_->step();
+    self_start_.look();
     hash_.update();
     if (clock_.now() >= next_look_) {
       next_look_ = clock_.now() + milliseconds{100};
@@ -72,22 +73,16 @@ class ForgedBoat {
   [[nodiscard]] const std::vector<Applied>& applied() const noexcept { return applied_; }
 
  private:
-  [[nodiscard]] HighLevelOptions high_options() const {
-    HighLevelOptions options = high_level_options(configuration_, scenario_);
-    options.planner.start_by_itself = true;
-    return options;
-  }
-
   std::unique_ptr<Blackboard> board_ = std::make_unique<Blackboard>();
-  TomlDocument configuration_;
+  BoatConfig configuration_;
   Scenario scenario_;
-  SimulatedBoat boat_;
-  HighLevelOptions options_;
+  SimClock clock_;
+  AssembledBoat boat_;
   HighLevel high_;
+  testing::SelfStart self_start_;
   cli::RunWatcher watcher_;
   RecordingHash hash_{*board_};
   Reader<ThrustApplied> thrust_{board_->thrust_applied};
-  SimClock clock_;
   Time next_look_{};
   std::unique_ptr<LockstepRunner> runner_;
   std::vector<Applied> applied_;

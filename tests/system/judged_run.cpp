@@ -6,7 +6,7 @@
 #include <map>
 
 #include "deploy/boat/configuration.h"
-#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/named_scenario.h"
 #include "deploy/boat/voyage.h"
 #include "deploy/operator/run/lockstep_run.h"
 #include "tests/system/escape.h"
@@ -118,8 +118,8 @@ JudgedRun judged_run(const std::string& scenario_name, const std::vector<std::st
                      std::optional<std::uint64_t> seed) {
   CommonOptions options;
   options.sets = sets;
-  const TomlDocument configuration = load_configuration("default", options);
-  Scenario scenario = load_named_scenario(scenario_name);
+  const BoatConfig configuration = load_configuration("default", options);
+  Scenario scenario = load_named_scenario(scenario_name, configuration.speeds);
   scenario.seed = seed.value_or(scenario.seed);
   Witness witness;
   const std::function<bool()> never = [] { return false; };

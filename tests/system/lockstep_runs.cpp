@@ -18,8 +18,8 @@ RunRecord sail(const std::string& scenario_name, const std::string& profile,
                std::vector<std::string> sets = {}, std::uint64_t seed = 1) {
   CommonOptions options;
   options.sets = std::move(sets);
-  const TomlDocument configuration = load_configuration(profile, options);
-  Scenario scenario = load_named_scenario(scenario_name);
+  const BoatConfig configuration = load_configuration(profile, options);
+  Scenario scenario = load_named_scenario(scenario_name, configuration.speeds);
   scenario.seed = seed;
   const std::function<bool()> never = [] { return false; };
   const std::function<void(const RunProgress&)> silent = [](const RunProgress&) {};
@@ -102,8 +102,8 @@ TEST_CASE("lock-step: a heading that falls silent stops the boat, and it goes on
       "goal_radius_m = 0.5\n[vehicle]\nspeed_m_s = 0.22\nradius_m = 0.5\n"
       "[[fault]]\ndevice = \"ahrs\"\nkind = \"stall\"\nat_s = 5.0\nduration_s = 4.0\n",
       "stall.toml");
-  const TomlDocument configuration = load_configuration("paper", {});
-  const Scenario parsed = read_scenario(scenario, load_vessel_parameters());
+  const BoatConfig configuration = load_configuration("paper", {});
+  const Scenario parsed = read_scenario(scenario, configuration.speeds);
   const std::function<bool()> never = [] { return false; };
   const std::function<void(const RunProgress&)> silent = [](const RunProgress&) {};
   const RunRecord record = run_lockstep({configuration, parsed, never, silent, {}});
@@ -129,8 +129,8 @@ TEST_CASE("lock-step: what cannot be reached is waited for at a place held again
         "protection_m = 2.0\n[environment]\ncurrent_m_s = " +
             std::string{current} + "\n",
         "occupied.toml");
-    const TomlDocument configuration = load_configuration("default", {});
-    const Scenario scenario = read_scenario(text, load_vessel_parameters());
+    const BoatConfig configuration = load_configuration("default", {});
+    const Scenario scenario = read_scenario(text, configuration.speeds);
     const std::function<bool()> never = [] { return false; };
     const std::function<void(const RunProgress&)> silent = [](const RunProgress&) {};
     const RunRecord record = run_lockstep({configuration, scenario, never, silent, {}});

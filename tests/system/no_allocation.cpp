@@ -7,13 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "deploy/boat/configuration.h"
-#include "deploy/boat/scenario_voyage.h"
-#include "deploy/boat/simulation.h"
+#include "deploy/boat/assembled_boat.h"
 #include "deploy/boat/voyage.h"
 #include "mid_level/runtime/run_lockstep.h"
 #include "tests/support/allocations.h"
 #include "tests/support/catch.h"
+#include "tests/support/self_start.h"
 
 namespace lodesman {
 namespace {
@@ -43,9 +42,11 @@ class CountedTask final : public Task {
 // The whole boat with a counter round each task.
 class CountedBoat {
  public:
-  CountedBoat(const TomlDocument& configuration, const Scenario& scenario)
-      : boat_{*board_, configuration, scenario},
-        high_{*board_, Role::kHigh, high_options(configuration, scenario)} {
+  CountedBoat(const BoatConfig& configuration, const Scenario& scenario)
+      : boat_{*board_, configuration, &scenario},
+        high_{*board_, Role::kHigh,
+              high_level_options(configuration, voyage_of(configuration, &scenario))},
+        self_start_{*board_, configuration, scenario, [this] { return clock_.now(); }} {
     std::vector<TaskEntry> entries = boat_.tasks();
     for (const TaskEntry& entry : high_.tasks()) {
       entries.push_back(entry);
@@ -63,6 +64,9 @@ class CountedBoat {
     const Time end = clock_.now() + duration;
     while (clock_.now() < end) {
       runner_->step();
+      if (plans() == 0) {
+        self_start_.look();
+      }
     }
   }
   void reset() {
@@ -79,24 +83,19 @@ class CountedBoat {
   }
 
  private:
-  [[nodiscard]] static HighLevelOptions high_options(const TomlDocument& configuration,
-                                                     const Scenario& scenario) {
-    HighLevelOptions options = high_level_options(configuration, scenario);
-    options.planner.start_by_itself = true;
-    return options;
-  }
-
   std::unique_ptr<Blackboard> board_ = std::make_unique<Blackboard>();
-  SimulatedBoat boat_;
+  AssembledBoat boat_;
   HighLevel high_;
   SimClock clock_;
+  testing::SelfStart self_start_;
   std::map<TaskId, std::unique_ptr<CountedTask>> tasks_;
   std::unique_ptr<LockstepRunner> runner_;
   Reader<Plan> plan_{board_->plan};
 };
 
 void check_no_allocation(const std::string& profile, const std::string& scenario) {
-  CountedBoat boat{load_configuration(profile, {}), load_named_scenario(scenario)};
+  const BoatConfig configuration = load_configuration(profile, {});
+  CountedBoat boat{configuration, load_named_scenario(scenario, configuration.speeds)};
   boat.sail(std::chrono::seconds{5});
   boat.reset();
   const std::uint64_t plans = boat.plans();

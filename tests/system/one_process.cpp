@@ -4,14 +4,15 @@
 // races is the sanitizer's to say.
 #include <sys/wait.h>
 
+#include "deploy/boat/assembled_boat.h"
 #include "deploy/boat/configuration.h"
 #include "deploy/boat/exit_status.h"
 #include "deploy/boat/process_main.h"
-#include "deploy/boat/simulation.h"
 #include "deploy/boat/voyage.h"
 #include "mid_level/recording/recording_hash.h"
 #include "mid_level/runtime/run_realtime.h"
 #include "tests/support/catch.h"
+#include "tests/support/self_start.h"
 #include "tests/system/boat.h"
 
 using namespace lodesman;
@@ -46,12 +47,13 @@ TEST_CASE("one process: both levels sail over one segment, and an onlooker reads
     auto low_board = SharedBlackboard::create(segment);
     auto high_board = SharedBlackboard::open(segment, Role::kHigh, Duration::zero());
     const auto board = SharedBlackboard::observe(segment, Duration::zero());
-    const TomlDocument configuration = load_configuration(profile, CommonOptions{});
-    const Scenario scenario = load_named_scenario("paper-static");
-    SimulatedBoat boat{low_board.writable(), configuration, scenario};
-    HighLevelOptions options = high_level_options(configuration, scenario);
-    options.planner.start_by_itself = true;
-    HighLevel high{high_board.writable(), Role::kHigh, options};
+    const BoatConfig configuration = load_configuration(profile, CommonOptions{});
+    const Scenario scenario = load_named_scenario("paper-static", configuration.speeds);
+    AssembledBoat boat{low_board.writable(), configuration, &scenario};
+    HighLevel high{high_board.writable(), Role::kHigh,
+                   high_level_options(configuration, voyage_of(configuration, &scenario))};
+    SelfStart self_start{high_board.writable(), configuration, scenario,
+                         [] { return SteadyClock{}.now(); }};
     Reader<ThrustApplied> thrust{board->thrust_applied};
     Reader<Plan> plan{board->plan};
     {
@@ -60,7 +62,10 @@ TEST_CASE("one process: both levels sail over one segment, and an onlooker reads
       const auto high_tasks = high.tasks();
       const RealtimeRunner low_runner{low_tasks, low_board.writable(), Role::kLow, end_without};
       const RealtimeRunner high_runner{high_tasks, high_board.writable(), Role::kHigh, end_without};
-      REQUIRE(eventually([&] { return drives(thrust.latest()); }));
+      REQUIRE(eventually([&] {
+        self_start.look();
+        return drives(thrust.latest());
+      }));
       CHECK(eventually([&] {
         const auto* newest = plan.latest();
         return newest != nullptr && newest->value.id >= 3 &&

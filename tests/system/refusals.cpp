@@ -268,7 +268,6 @@ TEST_CASE("refusals: lodesman-low refuses before it makes a segment", "[system][
   };
   const std::string configuration = text_of(LODESMAN_CONFIGURATION);
   const std::vector<Row> rows{
-      {"", kGoodScenario, "^c.toml:1: [a-z_.]+: missing"},
       {"[planner", kGoodScenario, "^c.toml:1: toml: "},
       {configuration + "\n[typo]\nx = 1\n", kGoodScenario, "^c.toml:[0-9]+: typo: unknown key"},
       {configuration, "", "^s.toml:1: name: missing"},
@@ -287,6 +286,64 @@ TEST_CASE("refusals: lodesman-low refuses before it makes a segment", "[system][
                   row.line);
     CHECK_FALSE(fs::exists("/dev/shm/" + segment));
   }
+}
+
+TEST_CASE("refusals: devices that do not go together are refused by both programs",
+          "[system][refusals]") {
+  struct Row {
+    std::string configuration;
+    std::string line;
+  };
+  const std::string real =
+      "[devices]\nheading = \"nav440:/dev/none\"\nposition = \"gpsd:localhost\"\n"
+      "thrusters = \"maestro:/dev/none\"\n";
+  const std::string estimate = "[simulation]\nvessel = \"estimate\"\n";
+  const std::vector<Row> rows{
+      {"[devices]\nsonar = \"none\"\n", "^c.toml:2: devices.sonar: must not be none"},
+      {"[devices]\nheading = \"none\"\n", "^c.toml:2: devices.heading: must not be none"},
+      {"[devices]\nheading = \"can:0\"\n", "^c.toml:2: devices.heading: \"can:0\" is no address"},
+      {"[devices]\nthrusters = \"maestro:/dev/none\"\n",
+       "^c.toml:2: devices.thrusters: is real, and the simulated vessel is moved by simulated"},
+      {"[devices]\nheading = \"nav440:/dev/none\"\n", "^c.toml:2: devices.heading: is real, and"},
+      {estimate, "^c.toml:2: simulation.vessel: is where the estimate is"},
+      {real + estimate + "[estimator]\nposition_source = \"truth\"\n",
+       "^c.toml:8: estimator.position_source: the truth of a simulated world must not steer"},
+      {"[devices]\nposition = \"none\"\n[estimator]\nposition_source = \"gps\"\n",
+       "^c.toml:2: devices.position: is none: the position's source must be dead_reckoning"},
+      {"[devices]\nposition = \"none\"\n",
+       "^c.toml:2: devices.position: is none: the position's source must be dead_reckoning"},
+      {real + estimate, "^c.toml:2: devices.heading: there is no driver"},
+  };
+  for (const Row& row : rows) {
+    for (const char* program : {LODESMAN_LOW_PROGRAM, LODESMAN_HIGH_PROGRAM}) {
+      INFO(program << " " << row.configuration);
+      Bench bench;
+      bench.write("c.toml", row.configuration);
+      const std::string segment = "lodesman-refusals-" + std::to_string(getpid());
+      check_refused(bench,
+                    bench.run(program, {"--segment", segment, "--config", "c.toml", "--scenario",
+                                        "paper-static"}),
+                    row.line);
+      CHECK_FALSE(fs::exists("/dev/shm/" + segment));
+    }
+  }
+}
+
+TEST_CASE("refusals: a world that nothing is in, and a simulated device without one",
+          "[system][refusals]") {
+  const std::string all_real =
+      "[devices]\nheading = \"nav440:/dev/none\"\nsonar = \"delta_t:192.0.2.7\"\n"
+      "position = \"none\"\nthrusters = \"maestro:/dev/none\"\n";
+  Bench bench;
+  bench.write("c.toml", all_real + "[simulation]\nscenario = \"paper-static\"\n");
+  check_refused(bench, bench.run(LODESMAN_LOW_PROGRAM, {"--config", "c.toml"}),
+                "^c.toml:7: simulation.scenario: no device is simulated");
+  bench.write("c.toml", all_real + "[simulation]\nvessel = \"estimate\"\n");
+  check_refused(bench, bench.run(LODESMAN_LOW_PROGRAM, {"--config", "c.toml"}),
+                "^c.toml:7: simulation.vessel: no device is simulated");
+  bench.write("c.toml", "[simulation]\nscenario = \"\"\n");
+  check_refused(bench, bench.run(LODESMAN_LOW_PROGRAM, {"--config", "c.toml"}),
+                "^c.toml:2: simulation.scenario: devices.heading is simulated: give the scenario");
 }
 
 TEST_CASE("refusals: lodesman-high refuses an unknown key before it looks for a segment",

@@ -85,8 +85,8 @@ double estimated_way_m(const RunRecord& record) {
 }
 
 Sailed sail(const std::string& scenario_name, const std::string& profile) {
-  const TomlDocument configuration = load_configuration(profile, {});
-  const Scenario scenario = load_named_scenario(scenario_name);
+  const BoatConfig configuration = load_configuration(profile, {});
+  const Scenario scenario = load_named_scenario(scenario_name, configuration.speeds);
   const std::function<bool()> never = [] { return false; };
   const std::function<void(const RunProgress&)> silent = [](const RunProgress&) {};
   ZoneWitness zones;

@@ -80,7 +80,7 @@ template <class Check>
 const std::vector<Arrow>& arrows() {
   static const std::vector<Arrow> table{
       {"mid_level/base", {}},
-      {"mid_level/config", {}},
+      {"mid_level/config", {"mid_level/messages"}},
       {"mid_level/messages", {}},
       {"mid_level/geometry", {"mid_level/messages"}},
       {"mid_level/blackboard", {"mid_level/messages"}},
@@ -99,7 +99,8 @@ const std::vector<Arrow>& arrows() {
       {"high_level/mission", {"mid_level/geometry", "mid_level/messages"}},
       {"high_level/tasks",
        {"high_level/estimate", "high_level/guidance", "high_level/control", "high_level/mission",
-        "mid_level/blackboard", kTask, kTaskTable, "mid_level/geometry", "mid_level/messages"}},
+        "mid_level/blackboard", "mid_level/config", kTask, kTaskTable, "mid_level/geometry",
+        "mid_level/messages"}},
       {"hal_sim/scenario", {"mid_level/config", "mid_level/geometry", "mid_level/messages"}},
       {"hal_sim/world",
        {"hal_sim/scenario", "drivers/hal", "mid_level/blackboard", kTask, "mid_level/geometry",

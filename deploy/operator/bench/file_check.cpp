@@ -1,23 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/operator/bench/file_check.h"
 
-#include "deploy/boat/configuration.h"
-#include "deploy/boat/scenario_voyage.h"
+#include <algorithm>
+
+#include "deploy/boat/assembled_boat.h"
 
 namespace lodesman::cli {
 namespace {
 
 [[nodiscard]] bool is_scenario(const TomlTable& root) {
-  // The others are a scenario's too, and a configuration's never: a scenario that lacks [mission]
-  // should be told so, not that it has unknown keys. Both have a [vehicle], with other keys.
-  if (root.has("mission") || root.has("obstacle")) {
-    return true;
+  // What a configuration never has: a scenario that lacks the rest should be told so, not that it
+  // has unknown keys. Both have a [vehicle] and a [mission], with other keys.
+  const auto has_one_of = [&root](const char* table, std::initializer_list<const char*> keys) {
+    return root.has(table) && std::any_of(keys.begin(), keys.end(), [&](const char* key) {
+             return root.table(table).has(key);
+           });
+  };
+  return root.has("name") || root.has("time_limit_s") || root.has("obstacle") ||
+         has_one_of("mission", {"start_m", "goal_m"}) ||
+         has_one_of("vehicle", {"surge_ref", "speed_m_s", "radius_m"});
+}
+
+[[nodiscard]] bool is_mission(const TomlTable& root) {
+  return root.has("goal_m") || root.has("goal_deg");
+}
+
+// As the boat's programs look at it; a simulated one may get its scenario from elsewhere.
+void check_configuration(const BoatConfig& config) {
+  const bool simulated_elsewhere = config.simulation.scenario.empty() && is_simulated(config);
+  if (!simulated_elsewhere) {
+    const auto scenario = simulated_scenario(config);
+    require_sound(config, scenario ? &*scenario : nullptr);
   }
-  if (!root.has("vehicle")) {
-    return false;
-  }
-  const TomlTable vehicle = root.table("vehicle");
-  return vehicle.has("surge_ref") || vehicle.has("speed_m_s") || vehicle.has("radius_m");
 }
 
 void check(const std::string& file, const CommonOptions& common, std::string& kind) {
@@ -27,7 +41,14 @@ void check(const std::string& file, const CommonOptions& common, std::string& ki
   }
   if (is_scenario(document.root())) {
     kind = "scenario";
-    (void)load_scenario(file, load_vessel_parameters());
+    (void)load_scenario(file, load_configuration("default", common).speeds);
+    return;
+  }
+  if (is_mission(document.root())) {
+    kind = "mission";
+    const BoatConfig config = load_configuration("default", common);
+    (void)read_mission(document.root(), config.mission, LocalFrame{config.origin});
+    document.require_all_keys_read();
     return;
   }
   if (document.root().has("vessel")) {
@@ -38,7 +59,7 @@ void check(const std::string& file, const CommonOptions& common, std::string& ki
   kind = "configuration";
   CommonOptions with_file = common;
   with_file.config_files.push_back(file);
-  (void)load_configuration("default", with_file);
+  check_configuration(load_configuration("default", with_file));
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ constexpr double kFar_px = 1e5;
 
 // What the vehicle would do with the same configuration.
 DeltaTOptions configured(const SegmentOptions& options) {
-  const TomlDocument document = load_configuration("default", options.common);
-  DeltaTOptions delta_t = read_low_level_options(document.root()).delta_t;
+  const BoatConfig config = load_configuration("default", options.common);
+  DeltaTOptions delta_t = config.low.delta_t;
   if (options.threshold > 0.0) {
     delta_t.segmentation.threshold = options.threshold;
   }
@@ -161,7 +161,7 @@ void FrameReader::plan(Json& frame) {
   request.id = request.frame = ping_->number;
   request.goal_x_m = (*options_.plan_m)[0];
   request.goal_y_m = (*options_.plan_m)[1];
-  path_finder_.find_path(*obstacles_, request, options_.range_m, *path_);
+  path_finder_.find_path(*obstacles_, request, *path_);
   frame["path_m"] = Json::array();
   const SonarView view{options_.range_m};
   for (std::uint32_t i = 0; i < path_->pixel_count; ++i) {

@@ -12,9 +12,7 @@
 #include <optional>
 #include <sstream>
 
-#include "deploy/boat/configuration.h"
-#include "deploy/boat/scenario_voyage.h"
-#include "deploy/boat/simulation.h"
+#include "deploy/boat/assembled_boat.h"
 #include "deploy/boat/stop_signals.h"
 #include "deploy/boat/version.h"
 #include "deploy/operator/cli/common_options.h"
@@ -112,12 +110,11 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
 // What a run writes while it goes on. What cannot be written is said once, and the run goes on.
 class RunOutput {
  public:
-  RunOutput(const SimOptions& options, const TomlDocument& configuration, const Scenario& scenario,
+  RunOutput(const SimOptions& options, const BoatConfig& configuration, const Scenario& scenario,
             const fs::path& directory)
       : files_{directory}, line_{scenario, options.common.quiet} {
     if (!options.no_images) {
-      views_.emplace(directory, simulation_settings(configuration).sonar_view_period,
-                     scenario.sonar.range_m);
+      views_.emplace(directory, configuration.simulation.sonar_view_period, scenario.sonar.range_m);
     }
   }
 
@@ -176,7 +173,7 @@ class RunOutput {
   bool lost_ = false;
 };
 
-[[nodiscard]] RunRecord run(const SimOptions& options, const TomlDocument& configuration,
+[[nodiscard]] RunRecord run(const SimOptions& options, const BoatConfig& configuration,
                             const Scenario& scenario, const fs::path& directory,
                             RunOutput& output) {
   const auto on_plan = [&](const Blackboard& board, const Plan& plan, const SonarPath* path,
@@ -193,12 +190,19 @@ class RunOutput {
                        scenario, options.wait_start, interrupted, show, on_plan, on_row});
 }
 
+// What lodesman-low and lodesman-high are told too.
+[[nodiscard]] BoatConfig simulated(const SimOptions& options) {
+  CommonOptions common = options.common;
+  common.sets.push_back("simulation.scenario=" + toml_string(options.scenario));
+  return load_configuration(options.profile, common);
+}
+
 [[nodiscard]] int simulate(const SimOptions& options) {
-  const TomlDocument configuration = load_configuration(options.profile, options.common);
-  Scenario scenario = load_named_scenario(options.scenario);
+  const BoatConfig configuration = simulated(options);
+  Scenario scenario = load_named_scenario(options.scenario, configuration.speeds);
   scenario.seed = options.seed.value_or(scenario.seed);
   scenario.time_limit_s = options.time_limit_s.value_or(scenario.time_limit_s);
-  require_devices(configuration, scenario);
+  require_sound(configuration, &scenario);
   const auto number = encounter_number(options.scenario);
   const std::string scenario_text =  // before it may be overwritten
       number ? encounter_scenario(*number) : read_text(scenario_file(options.scenario));

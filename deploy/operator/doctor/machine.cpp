@@ -16,7 +16,7 @@
 #include <thread>
 
 #include "deploy/boat/configuration.h"
-#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/named_scenario.h"
 #include "deploy/operator/watch/find_segment.h"
 #include "mid_level/blackboard/segment.h"
 #include "mid_level/runtime/task_table.h"
@@ -114,12 +114,12 @@ void measure_configuration(const CommonOptions& common, MachineFacts& facts) {
     if (fs::exists(share / "deploy" / "config" / "default.toml", ignored)) {
       facts.configuration = share.string();
     }
-    (void)load_configuration("default", common);
+    const BoatConfig config = load_configuration("default", common);
     (void)load_configuration("paper", common);
-    const VesselParameters vessel = load_vessel_parameters();
+    (void)load_vessel_parameters();
     for (const auto& entry : fs::directory_iterator{share / "hal_sim" / "scenarios"}) {
       if (entry.path().extension() == ".toml") {
-        (void)load_scenario(entry.path(), vessel);
+        (void)load_scenario(entry.path(), config.speeds);
       }
     }
   } catch (const std::exception& error) {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/operator/run/lockstep_run.h"
 
-#include "deploy/boat/configuration.h"
-#include "deploy/boat/simulation.h"
-#include "deploy/boat/voyage.h"
 #include "mid_level/base/stopwatch.h"
 #include "mid_level/recording/recording_hash.h"
 #include "mid_level/runtime/run_lockstep.h"
@@ -19,9 +16,9 @@ constexpr Duration kStartPatience = std::chrono::seconds{5};  // for the mission
 RunRecord run_lockstep(const LockstepRun& run) {
   const Stopwatch stopwatch;
   const auto board = std::make_unique<Blackboard>();
-  SimulatedBoat boat{*board, run.configuration, run.scenario};
-  HighLevelOptions options = high_level_options(run.configuration, run.scenario);
-  options.planner.start_by_itself = true;
+  const Voyage voyage = voyage_of(run.configuration, &run.scenario);
+  const HighLevelOptions options = high_level_options(run.configuration, voyage);
+  AssembledBoat boat{*board, run.configuration, &run.scenario};
   HighLevel high{*board, Role::kHigh, options};
   std::vector<TaskEntry> tasks = boat.tasks();
   for (const auto& entry : high.tasks()) {
@@ -33,8 +30,10 @@ RunRecord run_lockstep(const LockstepRun& run) {
   SimClock clock;
   // Not zero: a stamp of zero means "never".
   clock.advance_to(Time{std::chrono::seconds{1}});
-  const LockstepOptions lockstep{simulation_settings(run.configuration).lockstep_jitter,
-                                 run.scenario.seed};
+  DeskOptions at_the_desk = desk_options(run.configuration, voyage);
+  at_the_desk.starts_by_itself = true;
+  OperatorDesk desk{*board, Role::kHigh, at_the_desk, [&clock] { return clock.now(); }};
+  const LockstepOptions lockstep{run.configuration.simulation.lockstep_jitter, run.scenario.seed};
   LockstepRunner runner{tasks, clock, *board, lockstep};
   RunWatcher watcher{*board, with_planned_zones(run.scenario, options),
                      options.controller.waypoint_radius_m};
@@ -55,6 +54,7 @@ RunRecord run_lockstep(const LockstepRun& run) {
       continue;
     }
     next_poll = clock.now() + std::chrono::milliseconds{20};
+    desk.look();
     watcher.poll();
     const RunProgress progress = watcher.progress();
     if (progress.scenario_time_s >= run.scenario.time_limit_s) {

@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/assembled_boat.h"
 #include "deploy/operator/run/watcher.h"
 #include "mid_level/runtime/task.h"
 
 namespace lodesman::cli {
 
 struct LockstepRun {
-  const TomlDocument& configuration;
+  const BoatConfig& configuration;
   const Scenario& scenario;
   // Set to true by a signal handler: the run ends as if its time were up.
   const std::function<bool()>& interrupted;

@@ -9,7 +9,6 @@
 
 #include "deploy/boat/exit_status.h"
 #include "deploy/boat/stop_signals.h"
-#include "deploy/boat/voyage.h"
 #include "deploy/operator/run/child_process.h"
 #include "mid_level/base/clock.h"
 #include "mid_level/base/stopwatch.h"
@@ -32,9 +31,10 @@ class TwoProcesses {
     const std::vector<std::string> common{"--segment",        segment_,
                                           "--config",         run.configuration_file.string(),
                                           "--scenario",       run.scenario_file.string(),
-                                          "--seed",           std::to_string(run.scenario.seed),
                                           "--stop-with-input"};
-    low_ = std::make_unique<ChildProcess>("lodesman-low", common);
+    std::vector<std::string> low = common;
+    low.insert(low.end(), {"--seed", std::to_string(run.scenario.seed)});
+    low_ = std::make_unique<ChildProcess>("lodesman-low", low);
     std::vector<std::string> high = common;
     if (!run.wait_start) {
       high.push_back("--start");
@@ -157,7 +157,7 @@ class TwoProcesses {
 
 RunRecord run_realtime(const RealtimeRun& run) {
   TwoProcesses processes{run};
-  const HighLevelOptions options = high_level_options(run.configuration, run.scenario);
+  const HighLevelOptions& options = run.configuration.high;
   const Scenario planned = with_planned_zones(run.scenario, options);
   std::string fault;
   const auto board = observe(processes, run.interrupted, fault);

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/assembled_boat.h"
 #include "deploy/operator/run/watcher.h"
 
 namespace lodesman::cli {
@@ -14,7 +14,7 @@ namespace lodesman::cli {
 struct RealtimeRun {
   std::filesystem::path configuration_file;  // resolved: one file with every key
   std::filesystem::path scenario_file;
-  const TomlDocument& configuration;
+  const BoatConfig& configuration;
   const Scenario& scenario;
   bool wait_start = false;  // for an operator's start, instead of starting by itself
   const std::function<bool()>& interrupted;

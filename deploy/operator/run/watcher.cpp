@@ -173,7 +173,7 @@ void RunWatcher::take_truth() {
     add_truth(*truth);
   }
   record_.result.truths_missed = truth_.missed();
-  if (status_.ended != Time{} && !ended_ && status_.started != Time{}) {
+  if (status_.ended != Time{} && !ended_ && status_.first_started != Time{}) {
     end_at_truth();
   }
 }
@@ -184,7 +184,7 @@ void RunWatcher::add_truth(const Stamped<WorldTruth>& truth) {
   if (recent_truth_.size() > 50) {
     recent_truth_.pop_front();
   }
-  if (status_.started == Time{} || truth.stamp < status_.started || ended_) {
+  if (status_.first_started == Time{} || truth.stamp < status_.first_started || ended_) {
     return;
   }
   RunResult& result = record_.result;
@@ -252,7 +252,7 @@ void RunWatcher::end_at_truth() noexcept {
       last_truth_ = truth.value;
     }
   }
-  record_.result.time_s = to_seconds(status_.ended - status_.started);
+  record_.result.time_s = to_seconds(status_.ended - status_.first_started);
 }
 
 void RunWatcher::take_health() {
@@ -323,7 +323,7 @@ PlanRecord RunWatcher::describe(const Stamped<Plan>& published, const SonarPath*
 }
 
 double RunWatcher::scenario_time_of(Time stamp) const noexcept {
-  return status_.started == Time{} ? 0.0 : to_seconds(stamp - status_.started);
+  return status_.first_started == Time{} ? 0.0 : to_seconds(stamp - status_.first_started);
 }
 
 bool RunWatcher::mission_ended() const noexcept { return ended_; }

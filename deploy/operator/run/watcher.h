@@ -44,7 +44,7 @@ class RunWatcher {
   void poll();
 
   [[nodiscard]] bool mission_ended() const noexcept;  // reached or aborted
-  [[nodiscard]] Time mission_started() const noexcept { return status_.started; }  // 0 before
+  [[nodiscard]] Time mission_started() const noexcept { return status_.first_started; }  // 0 before
   [[nodiscard]] RunProgress progress() const;
   // Called for each plan, with the answer of PathFinder that it was made from (or nullptr).
   std::function<void(const Plan&, const SonarPath*, const PlanRecord&)> on_plan;

@@ -7,6 +7,7 @@
 #include "hal_sim/scenario/scenario.h"
 #include "mid_level/geometry/obstacle_distance.h"
 #include "tests/support/catch.h"
+#include "tests/support/shipped_vessel.h"
 
 namespace lodesman {
 namespace {
@@ -15,8 +16,8 @@ constexpr std::uint64_t kMany = 200;
 constexpr double kRounding_m = 0.003;  // numbers are written in millimetres
 
 Scenario sailed(std::uint64_t number) {
-  static const VesselParameters vessel = load_vessel(LODESMAN_VESSEL);
-  return read_scenario(TomlDocument::from_text(encounter_scenario(number), "encounter"), vessel);
+  static const SpeedTable speeds = testing::shipped_speeds();
+  return read_scenario(TomlDocument::from_text(encounter_scenario(number), "encounter"), speeds);
 }
 
 bool moves(const MovingObstacle& obstacle) {

@@ -42,7 +42,10 @@ TEST_CASE("world and simulated devices allocate nothing once made", "[hal_sim][d
   SimThrusterPair box{scenario, *link};
   Writer<MissionStatus> mission{board->mission_status, Role::kHigh, "mission_status"};
   Time now{std::chrono::seconds{1}};
-  mission.publish({MissionState::kUnderWay, now, {}, 0, 0.0, 0.0}, now);
+  MissionStatus sails;
+  sails.state = MissionState::kUnderWay;
+  sails.first_started = sails.started = now;
+  mission.publish(sails, now);
   bool taken = true;
   int fresh = 0;
   const testing::AllocationScope scope;

@@ -8,7 +8,7 @@ using std::chrono::milliseconds;
 
 namespace {
 
-const DeadReckoningOptions kPaper{milliseconds{200}, 0.01375};
+const DeadReckoningOptions kPaper{milliseconds{200}, SpeedTable::proportional(0.01375)};
 
 DeadReckoning sailed(double heading_deg, int surge_ref, Duration tick, Duration whole) {
   DeadReckoning reckoning{kPaper, {{1.0, 2.0}}};

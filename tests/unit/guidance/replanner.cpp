@@ -34,6 +34,7 @@ std::unique_ptr<SonarPath> found(const PathRequest& request) {
   auto path = std::make_unique<SonarPath>();
   path->request = request.id;
   path->frame = request.frame;
+  path->range_m = 30.0;
   path->reason = PathReason::kFound;
   for (int i = 0; i <= 50; ++i) {
     path->pixels[path->pixel_count++] = {static_cast<std::int16_t>(kApexColumn),
@@ -75,7 +76,7 @@ TEST_CASE("replanner: a path is taken into the world at the pose of its frame, n
           "[high_level][guidance]") {
   Replanner replanner{paper()};
   const auto request = replanner.request(s(20), 7, s(18), {{3.0, 21.0}}, northward());
-  const Plan* plan = replanner.answer(s(20.1), *found(*request), 30.0);
+  const Plan* plan = replanner.answer(s(20.1), *found(*request));
   REQUIRE(plan != nullptr);
   CHECK(plan->source == WaypointSource::kCurrent);
   REQUIRE(plan->waypoint_count == 3);
@@ -93,7 +94,7 @@ TEST_CASE("replanner: it asks once a period, one question at a time, each frame 
   REQUIRE(first);
   const std::uint64_t first_id = first->id;  // the next request is written over it
   CHECK_FALSE(replanner.request(s(19.7), 2, s(19.6), goal, poses));  // no answer yet
-  (void)replanner.answer(s(18.1), *found(*first), 30.0);
+  (void)replanner.answer(s(18.1), *found(*first));
   CHECK_FALSE(replanner.request(s(19.5), 2, s(19.5), goal, poses));  // too early
   CHECK_FALSE(replanner.request(s(19.7), 1, s(18.0), goal, poses));  // planned in already
   const auto second = replanner.request(s(19.65), 2, s(19.6), goal, poses);
@@ -106,9 +107,9 @@ TEST_CASE("replanner: without a path the previous waypoints stand (step 12.4)",
   Replanner replanner{paper()};
   const PoseHistory poses = northward();
   const auto first = replanner.request(s(17.0), 1, s(17.0), {{3.0, 20.0}}, poses);
-  const Plan before = *replanner.answer(s(17.1), *found(*first), 30.0);
+  const Plan before = *replanner.answer(s(17.1), *found(*first));
   const auto second = replanner.request(s(19.0), 2, s(19.0), {{3.0, 20.0}}, poses);
-  const Plan* after = replanner.answer(s(19.1), *refused(*second, PathReason::kStartBlocked), 30.0);
+  const Plan* after = replanner.answer(s(19.1), *refused(*second, PathReason::kStartBlocked));
   REQUIRE(after != nullptr);
   CHECK(after->reason == PathReason::kStartBlocked);
   CHECK(after->source == WaypointSource::kPrevious);
@@ -123,9 +124,9 @@ TEST_CASE("replanner: previous waypoints have an age limit where one is set",
   Replanner replanner{options};
   const PoseHistory poses = northward();
   const auto first = replanner.request(s(17.0), 1, s(17.0), {{3.0, 20.0}}, poses);
-  (void)replanner.answer(s(17.1), *found(*first), 30.0);
+  (void)replanner.answer(s(17.1), *found(*first));
   const auto second = replanner.request(s(19.0), 2, s(19.0), {{3.0, 20.0}}, poses);
-  const Plan* after = replanner.answer(s(19.1), *refused(*second, PathReason::kNoPath), 30.0);
+  const Plan* after = replanner.answer(s(19.1), *refused(*second, PathReason::kNoPath));
   REQUIRE(after != nullptr);
   CHECK(after->source == WaypointSource::kNone);
   CHECK(after->waypoint_count == 0);
@@ -136,9 +137,9 @@ TEST_CASE("replanner: an answer to another question is none", "[high_level][guid
   const auto request = replanner.request(s(18), 1, s(18), {{3.0, 20.0}}, northward());
   PathRequest other = *request;
   other.id += 5;
-  CHECK(replanner.answer(s(18.1), *found(other), 30.0) == nullptr);
-  CHECK(replanner.answer(s(18.1), *found(*request), 30.0) != nullptr);
-  CHECK(replanner.answer(s(18.2), *found(*request), 30.0) == nullptr);
+  CHECK(replanner.answer(s(18.1), *found(other)) == nullptr);
+  CHECK(replanner.answer(s(18.1), *found(*request)) != nullptr);
+  CHECK(replanner.answer(s(18.2), *found(*request)) == nullptr);
 }
 
 TEST_CASE("replanner: a request without an answer is given up and asked again, with a new number",
@@ -163,7 +164,7 @@ TEST_CASE("replanner: without any answer for too long nothing is followed, whate
   replanner.start(s(14.0));
   const PoseHistory poses = northward();
   const auto request = replanner.request(s(15.0), 1, s(15.0), {{3.0, 20.0}}, poses);
-  CHECK(replanner.answer(s(15.1), *found(*request), 30.0)->waypoint_count > 0);
+  CHECK(replanner.answer(s(15.1), *found(*request))->waypoint_count > 0);
   CHECK(replanner.silence(s(18.7), {}) == nullptr);
   // Frames come, but none that can be placed: their capture time is unknown.
   CHECK_FALSE(replanner.request(s(18.71), 2, s(3.0), {{3.0, 20.0}}, poses));
@@ -177,7 +178,7 @@ TEST_CASE("replanner: without any answer for too long nothing is followed, whate
   CHECK(replanner.silence(s(18.8), {}) == nullptr);  // said once
   const auto again = replanner.request(s(19.7), 3, s(19.6), {{3.0, 20.0}}, poses);
   REQUIRE(again);
-  CHECK(replanner.answer(s(19.8), *found(*again), 30.0)->source == WaypointSource::kCurrent);
+  CHECK(replanner.answer(s(19.8), *found(*again))->source == WaypointSource::kCurrent);
 }
 
 TEST_CASE("replanner: in the world it asks once a frame, from tracks, and follows the answer",

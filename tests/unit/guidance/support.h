@@ -59,8 +59,8 @@ inline Route route_of(std::initializer_list<Eigen::Vector2d> points) {
 
 // What the shipped configuration says, read anew by each test program.
 inline const HighLevelOptions& shipped_options() {
-  static const HighLevelOptions options =
-      read_high_level_options(TomlDocument::from_file(LODESMAN_DEFAULT_CONFIG).root());
+  static const HighLevelOptions options = read_high_level_options(
+      TomlDocument::from_file(LODESMAN_DEFAULT_CONFIG).root(), SpeedTable::proportional(0.01));
   return options;
 }
 

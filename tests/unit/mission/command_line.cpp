@@ -7,9 +7,9 @@ using namespace lodesman;
 
 TEST_CASE("command line: a command with the token may be obeyed", "[high_level][mission]") {
   for (const char* line : {R"({"command":"start","token":"secret"})",
-                           R"({"token":"secret","protocol":1,"command":"start","more":[]})"}) {
-    const CommandLine read = read_command_line(line, "secret");
-    CHECK(read.command == "start");
+                           R"({"token":"secret","protocol":2,"command":"start","more":[]})"}) {
+    const CommandLine read = read_command_line(line, {"secret", "", ""});
+    CHECK(read.request.command == "start");
     CHECK(read.refusal.empty());
   }
 }
@@ -21,19 +21,19 @@ TEST_CASE("command line: without the token nothing may, not even where the token
          {R"({"command":"start"})", R"({"command":"start","token":""})",
           R"({"command":"start","token":"secre"})", R"({"command":"start","token":"secret "})",
           R"({"command":"start","token":5})", R"({"command":"start","token":null})"}) {
-      const CommandLine read = read_command_line(line, token);
-      CHECK(read.command.empty());
+      const CommandLine read = read_command_line(line, {token, "", ""});
+      CHECK(read.request.command.empty());
       CHECK(read.refusal == R"({"ok":false,"error":"wrong or missing token"})");
     }
   }
 }
 
 TEST_CASE("command line: another protocol is refused", "[high_level][mission]") {
-  for (const char* protocol : {"0", "2", "1.5", "\"1\"", "null", "true", "[1]"}) {
+  for (const char* protocol : {"0", "1", "1.5", "\"1\"", "null", "true", "[1]"}) {
     const std::string line =
         std::string{R"({"command":"abort","token":"secret","protocol":)"} + protocol + "}";
-    CHECK(read_command_line(line, "secret").refusal ==
-          R"({"ok":false,"error":"this is protocol 1"})");
+    CHECK(read_command_line(line, {"secret", "", ""}).refusal ==
+          R"({"ok":false,"error":"this is protocol 2"})");
   }
 }
 
@@ -41,8 +41,8 @@ TEST_CASE("command line: what is no command is refused", "[high_level][mission]"
   for (const char* line : {"", "start", "[]", "{}", R"({"command":5,"token":"secret"})",
                            "\xff\xfe{", "POST / HTTP/1.1\r", "Host: 127.0.0.1:7447\r",
                            R"({"command":"start","token":"secret"} x)"}) {
-    const CommandLine read = read_command_line(line, "secret");
-    CHECK(read.command.empty());
+    const CommandLine read = read_command_line(line, {"secret", "", ""});
+    CHECK(read.request.command.empty());
     CHECK(read.refusal.find("a command is a line") != std::string::npos);
   }
 }

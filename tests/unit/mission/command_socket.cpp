@@ -25,7 +25,7 @@ using Stream = boost::asio::ip::tcp::iostream;
 
 constexpr const char* kToken = "secret";
 
-CommandSocketOptions any_port() { return {"127.0.0.1", 0, kToken}; }
+CommandSocketOptions any_port() { return {"127.0.0.1", 0, {kToken, "", ""}}; }
 
 std::string line_of(const std::string& command) {
   return R"({"command":")" + command + R"(","token":"secret"})";
@@ -36,7 +36,10 @@ Answer at_once(std::string reply) {
   return [reply = std::move(reply)] { return reply; };
 }
 CommandHandler echo() {
-  return [](const std::string& command) { return at_once(done(command)); };
+  return [](const CommandRequest& request) {
+    const std::string& command = request.command;
+    return at_once(done(command));
+  };
 }
 
 std::unique_ptr<Stream> connect(std::uint16_t port) {
@@ -73,7 +76,8 @@ TEST_CASE("command socket: a JSON line is answered with a JSON line", "[high_lev
 TEST_CASE("command socket: a session ends at the first line that is no command",
           "[high_level][mission]") {
   std::atomic<int> handled{0};
-  const CommandSocket socket{any_port(), [&](const std::string& command) {
+  const CommandSocket socket{any_port(), [&](const CommandRequest& request) {
+                               const std::string& command = request.command;
                                ++handled;
                                return at_once(done(command));
                              }};
@@ -98,7 +102,8 @@ TEST_CASE("command socket: a session ends at the first line that is no command",
 TEST_CASE("command socket: an answer may take its time, and others are served meanwhile",
           "[high_level][mission]") {
   std::atomic<bool> confirmed{false};
-  const CommandSocket socket{any_port(), [&](const std::string& command) -> Answer {
+  const CommandSocket socket{any_port(), [&](const CommandRequest& request) -> Answer {
+                               const std::string& command = request.command;
                                if (command != "abort") {
                                  return at_once(done(command));
                                }
@@ -120,7 +125,8 @@ TEST_CASE("command socket: who awaits an answer when it ends still gets it, with
   std::atomic<bool> confirmed{false};
   std::atomic<int> handled{0};
   auto socket =
-      std::make_unique<CommandSocket>(any_port(), [&](const std::string& command) -> Answer {
+      std::make_unique<CommandSocket>(any_port(), [&](const CommandRequest& request) -> Answer {
+        const std::string& command = request.command;
         ++handled;
         return [&confirmed, command]() -> std::optional<std::string> {
           return confirmed && command == "abort" ? std::optional{done(command)} : std::nullopt;
@@ -176,7 +182,8 @@ TEST_CASE("command socket: who waits for an abort is never put out, nor the firs
           "[high_level][mission]") {
   std::atomic<bool> confirmed{false};
   std::atomic<int> handled{0};
-  const CommandSocket socket{any_port(), [&](const std::string& command) -> Answer {
+  const CommandSocket socket{any_port(), [&](const CommandRequest& request) -> Answer {
+                               const std::string& command = request.command;
                                ++handled;
                                return [&confirmed, command]() -> std::optional<std::string> {
                                  return confirmed ? std::optional{done(command)} : std::nullopt;
@@ -272,7 +279,8 @@ TEST_CASE("command socket: it goes on when the process has no descriptors left",
 
 TEST_CASE("command socket: what the handler throws ends that session alone",
           "[high_level][mission]") {
-  const CommandSocket socket{any_port(), [](const std::string& command) -> Answer {
+  const CommandSocket socket{any_port(), [](const CommandRequest& request) -> Answer {
+                               const std::string& command = request.command;
                                if (command == "throw") {
                                  throw std::runtime_error("no");
                                }
@@ -285,13 +293,14 @@ TEST_CASE("command socket: what the handler throws ends that session alone",
 TEST_CASE("command socket: it stays on loopback, wants a token and needs a free port",
           "[high_level][mission]") {
   for (const char* address : {"0.0.0.0", "::", "192.0.2.1"}) {
-    CHECK_THROWS_WITH((CommandSocket{{address, 0, kToken}, echo()}),
+    CHECK_THROWS_WITH((CommandSocket{{address, 0, {kToken, "", ""}}, echo()}),
                       std::string{"command_socket.address: "} + address +
                           " is not loopback, and the token would cross the network in the clear; "
                           "use loopback and a tunnel");
   }
-  CHECK_THROWS_AS((CommandSocket{{"nowhere", 0, kToken}, echo()}), StartupError);
-  CHECK_THROWS_AS((CommandSocket{{"127.0.0.1", 0, ""}, echo()}), StartupError);
+  CHECK_THROWS_AS((CommandSocket{{"nowhere", 0, {kToken, "", ""}}, echo()}), StartupError);
+  CHECK_THROWS_AS((CommandSocket{{"127.0.0.1", 0, {}}, echo()}), StartupError);
   const CommandSocket first{any_port(), echo()};
-  CHECK_THROWS_AS((CommandSocket{{"127.0.0.1", first.port(), kToken}, echo()}), StartupError);
+  CHECK_THROWS_AS((CommandSocket{{"127.0.0.1", first.port(), {kToken, "", ""}}, echo()}),
+                  StartupError);
 }

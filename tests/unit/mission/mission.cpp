@@ -8,9 +8,23 @@ using namespace lodesman;
 namespace {
 Time s(double seconds) { return Time{from_seconds(seconds)}; }
 
+MissionDefinition mission_through_5_and_20() {
+  MissionDefinition mission;
+  mission.id = 1;
+  mission.speed_m_s = 0.22;
+  mission.goal_radius_m = 1.0;
+  mission.link_lost_after = from_seconds(5);
+  mission.goal_count = 2;
+  mission.goals[0] = {0, 5};
+  mission.goals[1] = {0, 20};
+  return mission;
+}
+
 // A mission, and the desk that counts its orders.
 struct Ordered {
-  Mission mission{{{{{0, 5}}, {{0, 20}}}, 0.5, 1.0}};
+  Ordered() { mission.set_at_hand(mission_through_5_and_20()); }
+
+  Mission mission{{0.5, SpeedTable::proportional(0.01)}};
   std::uint64_t aborts = 0;
   std::uint64_t sequence = 0;
 

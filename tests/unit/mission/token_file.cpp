@@ -57,24 +57,28 @@ mode_t mode_of(const fs::path& path) {
 TEST_CASE("token file: tokens are random", "[high_level][mission]") {
   std::set<std::string> tokens;
   for (int i = 0; i < 1000; ++i) {
-    const std::string token = random_token();
-    CHECK(token.size() == 64);
-    CHECK(token.find_first_not_of("0123456789abcdef") == std::string::npos);
-    tokens.insert(token);
+    const CommandTokens made = random_tokens();
+    for (const std::string& token : {made.command, made.abort, made.view}) {
+      CHECK(token.size() == 64);
+      CHECK(token.find_first_not_of("0123456789abcdef") == std::string::npos);
+      tokens.insert(token);
+    }
   }
-  CHECK(tokens.size() == 1000);
+  CHECK(tokens.size() == 3000);
 }
 
 TEST_CASE("token file: it is found by its port while its writer lives, and gone with it",
           "[high_level][mission]") {
   const Place place;
-  const std::string token = random_token();
+  const CommandTokens tokens = random_tokens();
   {
-    const TokenFile file{kPort, token};
+    const TokenFile file{kPort, tokens};
     CHECK(file.path().parent_path() == place.path());
     CHECK((mode_of(file.path()) & 0137U) == 0);  // at most rw-r-----
     REQUIRE(find_token_file(kPort) == file.path());
-    CHECK(read_token(file.path()) == token);
+    CHECK(read_token(file.path()) == tokens.command);
+    CHECK(read_tokens(file.path()).abort == tokens.abort);
+    CHECK(read_tokens(file.path()).view == tokens.view);
     CHECK_FALSE(find_token_file(kPort + 1));
   }
   CHECK_FALSE(find_token_file(kPort));
@@ -86,7 +90,7 @@ TEST_CASE("token file: what a killed writer left is not found, and is gone with 
   const Place place;
   const pid_t child = fork();
   if (child == 0) {
-    const TokenFile file{kPort, std::string(64, 'a')};
+    const TokenFile file{kPort, {std::string(64, 'a'), "", ""}};
     raise(SIGKILL);
   }
   int status = 0;
@@ -94,15 +98,15 @@ TEST_CASE("token file: what a killed writer left is not found, and is gone with 
   REQUIRE(WIFSIGNALED(status));
   CHECK(std::distance(fs::directory_iterator{place.path()}, fs::directory_iterator{}) == 1);
   CHECK_FALSE(find_token_file(kPort));
-  const TokenFile next{kPort + 1, std::string(64, 'b')};
+  const TokenFile next{kPort + 1, {std::string(64, 'b'), "", ""}};
   CHECK(std::distance(fs::directory_iterator{place.path()}, fs::directory_iterator{}) == 1);
   CHECK(find_token_file(kPort + 1) == next.path());
 }
 
 TEST_CASE("token file: the one that took its name stays", "[high_level][mission]") {
   const Place place;
-  auto first = std::make_unique<TokenFile>(kPort, std::string(64, 'a'));
-  const TokenFile second{kPort, std::string(64, 'b')};
+  auto first = std::make_unique<TokenFile>(kPort, CommandTokens{std::string(64, 'a'), "", ""});
+  const TokenFile second{kPort, {std::string(64, 'b'), "", ""}};
   first.reset();
   REQUIRE(find_token_file(kPort) == second.path());
   CHECK(read_token(second.path()) == std::string(64, 'b'));
@@ -111,13 +115,13 @@ TEST_CASE("token file: the one that took its name stays", "[high_level][mission]
 TEST_CASE("token file: a directory that others can write is not used", "[high_level][mission]") {
   const Place place;
   REQUIRE(chmod(place.path().c_str(), 0777) == 0);
-  const TokenFile file{kPort, std::string(64, 'a')};
+  const TokenFile file{kPort, {std::string(64, 'a'), "", ""}};
   CHECK(file.path().parent_path() != place.path());
   const Place linked;
   fs::create_directory_symlink(place.path(), linked.path() / "link");
   REQUIRE(chmod(place.path().c_str(), 0700) == 0);
   setenv("RUNTIME_DIRECTORY", (linked.path() / "link").c_str(), 1);
-  const TokenFile other{kPort + 1, std::string(64, 'a')};
+  const TokenFile other{kPort + 1, {std::string(64, 'a'), "", ""}};
   CHECK(other.path().parent_path() != linked.path() / "link");
 }
 

@@ -32,7 +32,8 @@ struct Rig {
     request->frame = 41;
     request->goal_x_m = goal_x_m;
     request->goal_y_m = goal_y_m;
-    finder.find_path(*obstacles, *request, range_m, *path);
+    obstacles->range_m = range_m;
+    finder.find_path(*obstacles, *request, *path);
     return path->reason;
   }
 };

@@ -4,7 +4,7 @@
 #include <csignal>
 
 #include "deploy/boat/configuration.h"
-#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/named_scenario.h"
 #include "deploy/boat/voyage.h"
 #include "tests/support/full_pipe.h"
 

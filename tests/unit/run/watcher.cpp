@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "deploy/boat/configuration.h"
-#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/named_scenario.h"
 #include "deploy/boat/voyage.h"
 #include "tests/support/catch.h"
 
@@ -27,13 +27,13 @@ struct Bench {
   void start() {
     MissionStatus status;
     status.state = MissionState::kUnderWay;
-    status.started = started;
+    status.first_started = status.started = started;
     mission.publish(status, started);
   }
   void end(MissionState state) {
     MissionStatus status;
     status.state = state;
-    status.started = started;
+    status.first_started = status.started = started;
     status.ended = now;
     mission.publish(status, now);
   }
@@ -210,7 +210,7 @@ TEST_CASE("watcher: the way left follows the mission's next waypoint", "[run]") 
   CHECK(bench.watcher.progress().to_go_m == Approx(20.0));
   MissionStatus status;
   status.state = MissionState::kUnderWay;
-  status.started = bench.started;
+  status.first_started = status.started = bench.started;
   status.goal_index = 1;
   bench.mission.publish(status, bench.now);
   bench.watcher.poll();

@@ -13,7 +13,7 @@ namespace {
 using testing::kGoodScenario;
 using testing::replaced;
 using testing::scenario_of;
-using testing::shipped_vessel;
+using testing::shipped_speeds;
 
 const std::vector<std::string> kShipped = {
     "paper-static",        "paper-multiple",   "paper-moving",     "paper-radius-0.2",
@@ -130,7 +130,7 @@ TEST_CASE("scenario: each shipped scenario is read, and is named as its file",
                                                             LODESMAN_SCENARIOS};
   for (const std::string& name : kShipped) {
     INFO(name);
-    const Scenario s = load_scenario(find_scenario(name, directories), shipped_vessel());
+    const Scenario s = load_scenario(find_scenario(name, directories), shipped_speeds());
     CHECK(s.name == name);
     CHECK(s.position.source ==
           (name.starts_with("tank") ? PositionSource::kDeadReckoning : PositionSource::kTruth));

@@ -64,7 +64,7 @@ TEST_CASE("scenario: head, mission and vehicle are refused with one line", "[hal
       {"time_limit_s = 200.0", "time_limit_s = \"200\"",
        "s.toml:3: time_limit_s: must be a number"},
       {"time_limit_s = 200.0", "time_limit_s = 80.0",
-       "s.toml:7: mission.goal_m: is farther than speed x time limit (19.5 m on the way, 17.77 m "
+       "s.toml:7: mission.goal_m: is farther than speed x time limit (19.5 m on the way, 17.76 m "
        "in the time)"},
       {"[mission]\n", "[misson]\n", "s.toml:1: mission: missing"},
       {"start_m = [0.0, 0.0]", "start_m = [0.0]",
@@ -75,11 +75,11 @@ TEST_CASE("scenario: head, mission and vehicle are refused with one line", "[hal
       {"start_heading_deg = 0.0", "start_heading = 0.0",
        "s.toml:4: mission.start_heading_deg: missing"},
       {"goal_m = [0.0, 20.0]", "goal_m = [0.0, 45.0]",
-       "s.toml:7: mission.goal_m: is farther than speed x time limit (44.5 m on the way, 44.41 m "
+       "s.toml:7: mission.goal_m: is farther than speed x time limit (44.5 m on the way, 44.4 m "
        "in the time)"},
       {"goal_m = [0.0, 20.0]", "goal_m = [0.0, inf]", "s.toml:7: mission.goal_m: must be finite"},
       {"goal_m = [0.0, 20.0]", "goal_m = [0.0, 20.0]\nwaypoints_m = [[30.0, 0.0]]",
-       "s.toml:7: mission.goal_m: is farther than speed x time limit (64.56 m on the way, 44.41 m "
+       "s.toml:7: mission.goal_m: is farther than speed x time limit (64.56 m on the way, 44.4 m "
        "in the time)"},
       {"goal_m = [0.0, 20.0]", "goal_m = [0.0, 20.0]\nwaypoints_m = [3.0, 0.0]",
        "s.toml:8: mission.waypoints_m: must be two numbers [x, y]"},

@@ -9,7 +9,6 @@ namespace {
 
 [[nodiscard]] ControllerOptions paper_options() {
   ControllerOptions options;
-  options.surge_ref = 16;
   options.heading_gain_per_deg = 3.5;
   options.waypoint_radius_m = 0.5;
   return options;
@@ -20,6 +19,8 @@ struct Controller {
     MissionStatus status;
     status.state = what;
     status.started = started;
+    status.surge_ref = 16;
+    status.speed_m_s = 0.22;
     mission.publish(status, at);
   }
   void plan_to(double y_m, Time at) {

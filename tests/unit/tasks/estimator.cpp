@@ -12,7 +12,7 @@ namespace {
 [[nodiscard]] EstimatorOptions options_for(PositionSource source) {
   EstimatorOptions options;
   options.source = source;
-  options.dead_reckoning = {milliseconds{200}, 0.01375};
+  options.dead_reckoning = {milliseconds{200}, SpeedTable::proportional(0.01375)};
   options.gps_correction = 1.0;
   options.current_time = seconds{30};
   options.origin = {35.0, 139.0};

@@ -19,6 +19,7 @@ struct Finder {
     auto seen = std::make_unique<SonarObstacles>();
     seen->frame = frame;
     seen->captured = kStart;
+    seen->range_m = 30.0;
     obstacles.publish(*seen, kStart);
   }
 
@@ -31,7 +32,7 @@ struct Finder {
 TEST_CASE("path_finder task: each request is answered once in the frame that it names",
           "[low_level][tasks]") {
   Finder finder;
-  PathFinderTask task{*finder.board, Role::kLow, 30.0};
+  PathFinderTask task{*finder.board, Role::kLow};
   task.step(kStart);
   CHECK(finder.paths.next() == nullptr);  // nothing was asked
   for (const std::uint64_t frame : {1U, 2U, 3U}) {
@@ -50,7 +51,7 @@ TEST_CASE("path_finder task: each request is answered once in the frame that it 
 
 TEST_CASE("path_finder task: a frame that is not there is said to be none", "[low_level][tasks]") {
   Finder finder;
-  PathFinderTask task{*finder.board, Role::kLow, 30.0};
+  PathFinderTask task{*finder.board, Role::kLow};
   for (const std::uint64_t frame : {4U, 6U}) {  // none seen yet, then one missing between two
     finder.ask(frame, 5);
     task.step(kStart);
@@ -68,7 +69,7 @@ TEST_CASE("path_finder task: what was asked before it was made is not answered",
   Finder finder;
   finder.see(1);
   finder.ask(1, 1);
-  PathFinderTask task{*finder.board, Role::kLow, 30.0};
+  PathFinderTask task{*finder.board, Role::kLow};
   task.step(kStart);
   CHECK(finder.paths.next() == nullptr);
   finder.ask(2, 1);
@@ -79,7 +80,7 @@ TEST_CASE("path_finder task: what was asked before it was made is not answered",
 TEST_CASE("path_finder task: a goal that is no number is answered without a path",
           "[low_level][tasks]") {
   Finder finder;
-  PathFinderTask task{*finder.board, Role::kLow, 30.0};
+  PathFinderTask task{*finder.board, Role::kLow};
   finder.see(1);
   auto request = std::make_unique<PathRequest>();
   request->id = 1;

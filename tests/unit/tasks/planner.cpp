@@ -7,22 +7,20 @@
 namespace lodesman::testing {
 namespace {
 
-[[nodiscard]] PlannerOptions paper_options(bool start_by_itself) {
+[[nodiscard]] PlannerOptions paper_options() {
   PlannerOptions options;
   options.replanner.replan_period = milliseconds{1600};
   options.replanner.answer_patience = seconds{1};
   options.replanner.waypoint_interval_m = 1.3;
-  options.mission.goals = {{{0.0, 10.0}}};
-  options.mission.waypoint_radius_m = options.mission.goal_radius_m = 0.5;
-  options.sonar_range_m = 30.0;
-  options.start_by_itself = start_by_itself;
+  options.mission.waypoint_radius_m = 0.5;
   options.progress = {seconds{15}, 0.5};
   return options;
 }
 
 struct Planner {
-  explicit Planner(bool start_by_itself = false)
-      : task{*board, Role::kHigh, paper_options(start_by_itself)} {}
+  Planner() : task{*board, Role::kHigh, paper_options()} {
+    definitions.publish(mission_through({{0.0, 10.0}}), kStart);
+  }
 
   void estimate(double y_m, Time at) {
     VehicleState here;
@@ -34,6 +32,7 @@ struct Planner {
     auto seen = std::make_unique<SonarObstacles>();
     seen->frame = frame;
     seen->captured = at;
+    seen->range_m = 30.0;
     obstacles.publish(*seen, at);
   }
   void order(OperatorOrder what, Time at) {
@@ -56,23 +55,12 @@ struct Planner {
   PlannerTask task;
   Writer<VehicleState> state{board->vehicle_state, Role::kHigh, "vehicle_state"};
   Writer<SonarObstacles> obstacles{board->sonar_obstacles, Role::kLow, "sonar_obstacles"};
+  Writer<MissionDefinition> definitions{board->mission_definition, Role::kHigh, "definitions"};
   Writer<OperatorCommand> orders{board->operator_command, Role::kHigh, "operator_command"};
   Reader<MissionStatus> statuses{board->mission_status};
   Reader<PathRequest> requests{board->path_request};
   Reader<Plan> plans{board->plan};
 };
-
-TEST_CASE("planner task: it starts by itself once there is a fresh estimate",
-          "[high_level][tasks]") {
-  Planner planner{true};
-  CHECK(planner.after_step(kStart) == MissionState::kIdle);
-  planner.estimate(0.0, kStart + seconds{3600});  // of the future
-  CHECK(planner.after_step(kStart) == MissionState::kIdle);
-  planner.estimate(0.0, kStart);
-  CHECK(planner.after_step(kStart + max_age::kVehicleState + Duration{1}) == MissionState::kIdle);
-  planner.estimate(0.0, kStart + seconds{1});
-  CHECK(planner.after_step(kStart + seconds{1}) == MissionState::kUnderWay);
-}
 
 TEST_CASE("planner task: after a long absence it holds where it is and waits to be told",
           "[high_level][tasks]") {
@@ -127,7 +115,7 @@ TEST_CASE("planner task: orders from before it was made are not for it", "[high_
   const auto board = std::make_unique<Blackboard>();
   Writer<OperatorCommand> orders{board->operator_command, Role::kHigh, "operator_command"};
   orders.publish({OperatorOrder::kStart}, kStart);
-  PlannerTask task{*board, Role::kHigh, paper_options(false)};
+  PlannerTask task{*board, Role::kHigh, paper_options()};
   task.step(kStart);
   Reader<MissionStatus> statuses{board->mission_status};
   REQUIRE(statuses.latest() != nullptr);
@@ -136,7 +124,8 @@ TEST_CASE("planner task: orders from before it was made are not for it", "[high_
 
 TEST_CASE("planner task: a path is asked for in a fresh frame and in no other",
           "[high_level][tasks]") {
-  Planner planner{true};
+  Planner planner;
+  planner.order(OperatorOrder::kStart, kStart);
   planner.estimate(0.0, kStart);
   CHECK(planner.after_step(kStart) == MissionState::kUnderWay);
   CHECK(planner.requests.next() == nullptr);  // no frame yet
@@ -155,7 +144,8 @@ TEST_CASE("planner task: a path is asked for in a fresh frame and in no other",
 TEST_CASE(
     "planner task: a goal is reached where the estimate says so and not where it is no number",
     "[high_level][tasks]") {
-  Planner planner{true};
+  Planner planner;
+  planner.order(OperatorOrder::kStart, kStart);
   planner.estimate(0.0, kStart);
   CHECK(planner.after_step(kStart) == MissionState::kUnderWay);
   planner.estimate(kNaN, kStart);
@@ -165,7 +155,8 @@ TEST_CASE(
 }
 
 TEST_CASE("planner task: a sonar that falls silent is said in a plan", "[high_level][tasks]") {
-  Planner planner{true};
+  Planner planner;
+  planner.order(OperatorOrder::kStart, kStart);
   for (Time now = kStart; now < kStart + seconds{10}; now += milliseconds{100}) {
     planner.estimate(0.0, now);
     CHECK(planner.after_step(now) == MissionState::kUnderWay);
@@ -178,7 +169,8 @@ TEST_CASE("planner task: a sonar that falls silent is said in a plan", "[high_le
 
 TEST_CASE("planner task: it says when no way is made and that the thrusters are why",
           "[high_level][tasks]") {
-  Planner planner{true};
+  Planner planner;
+  planner.order(OperatorOrder::kStart, kStart);
   Writer<ThrustApplied> applied{planner.board->thrust_applied, Role::kLow, "thrust_applied"};
   Writer<Attitude> attitudes{planner.board->attitude, Role::kLow, "attitude"};
   ThrustApplied failed;
@@ -198,7 +190,8 @@ TEST_CASE("planner task: it says when no way is made and that the thrusters are 
 TEST_CASE(
     "planner task: a position that is lost is named in the plan with the time of the last fix",
     "[high_level][tasks]") {
-  Planner planner{true};
+  Planner planner;
+  planner.order(OperatorOrder::kStart, kStart);
   Writer<Attitude> attitudes{planner.board->attitude, Role::kLow, "attitude"};
   Writer<PositionFix> fixes{planner.board->position_fix, Role::kLow, "position_fix"};
   PositionFix fix;

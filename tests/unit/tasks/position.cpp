@@ -9,7 +9,7 @@ namespace {
 struct Position {
   std::unique_ptr<Blackboard> board = std::make_unique<Blackboard>();
   ScriptedPosition sensor;
-  PositionTask task{*board, Role::kLow, sensor};
+  PositionTask task{*board, Role::kLow, &sensor};
   Reader<PositionFix> fixes{board->position_fix};
 
   [[nodiscard]] std::vector<double> latitudes_after_step() {

@@ -72,6 +72,21 @@ class ScriptedThrusters final : public ThrusterPair {
   ThrustCommand last{1, 1};
 };
 
+// A mission of goals, the last one its goal, at 0.22 m/s.
+[[nodiscard]] inline MissionDefinition mission_through(std::initializer_list<Goal> goals,
+                                                       double goal_radius_m = 0.5,
+                                                       std::uint64_t id = 1) {
+  MissionDefinition mission;
+  mission.id = id;
+  mission.speed_m_s = 0.22;
+  mission.goal_radius_m = goal_radius_m;
+  mission.link_lost_after = seconds{5};
+  for (const Goal& goal : goals) {
+    mission.goals[mission.goal_count++] = goal;
+  }
+  return mission;
+}
+
 // What has been published on a channel since the last look.
 template <class T>
 [[nodiscard]] std::vector<T> all_of(Reader<T>& reader) {

@@ -11,7 +11,7 @@ namespace {
 struct Thrusters {
   std::unique_ptr<Blackboard> board = std::make_unique<Blackboard>();
   ScriptedThrusters box;
-  ThrusterTask task{*board, Role::kLow, box};
+  ThrusterTask task{*board, Role::kLow, &box};
   Writer<HelmCommand> helm{board->helm_command, Role::kHigh, "helm_command"};
   Reader<ThrustApplied> applied{board->thrust_applied};
 

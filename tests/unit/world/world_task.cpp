@@ -28,7 +28,7 @@ struct Bench {
   void start() {
     MissionStatus status;
     status.state = MissionState::kUnderWay;
-    status.started = now;
+    status.first_started = status.started = now;
     mission.publish(status, now);
   }
   void run_for(Duration span) {

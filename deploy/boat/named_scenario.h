@@ -7,12 +7,14 @@
 #include <string>
 
 #include "hal_sim/scenario/scenario.h"
+#include "hal_sim/scenario/vessel_parameters.h"
 #include "high_level/tasks/high_level.h"
 
 namespace lodesman {
 
-// By path, or by the name of a shipped scenario.
-[[nodiscard]] Scenario load_named_scenario(const std::string& name_or_path);
+// By path, or by the name of a shipped scenario or of an encounter. `speeds`: the boat's own.
+[[nodiscard]] Scenario load_named_scenario(const std::string& name_or_path,
+                                           const SpeedTable& speeds);
 [[nodiscard]] std::filesystem::path scenario_file(const std::string& name_or_path);
 [[nodiscard]] VesselParameters load_vessel_parameters();
 

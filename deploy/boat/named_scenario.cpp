@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/boat/scenario_voyage.h"
+#include "deploy/boat/named_scenario.h"
 
 #include <array>
 #include <cmath>
 
 #include "deploy/boat/configuration.h"
-#include "deploy/boat/scenario_voyage.h"
-#include "deploy/boat/voyage.h"
 #include "hal_sim/campaign/encounter.h"
 
 namespace lodesman {
@@ -19,12 +17,12 @@ fs::path scenario_file(const std::string& name_or_path) {
 
 VesselParameters load_vessel_parameters() { return load_vessel(config_file("vessel.toml")); }
 
-Scenario load_named_scenario(const std::string& name_or_path) {
+Scenario load_named_scenario(const std::string& name_or_path, const SpeedTable& speeds) {
   if (const auto number = encounter_number(name_or_path)) {
     return read_scenario(TomlDocument::from_text(encounter_scenario(*number), name_or_path),
-                         load_vessel_parameters());
+                         speeds);
   }
-  return load_scenario(scenario_file(name_or_path), load_vessel_parameters());
+  return load_scenario(scenario_file(name_or_path), speeds);
 }
 
 Scenario with_planned_zones(Scenario scenario, const HighLevelOptions& options) {
@@ -32,7 +30,7 @@ Scenario with_planned_zones(Scenario scenario, const HighLevelOptions& options) 
     return scenario;
   }
   const PilotOptions& pilot = *options.planner.replanner.pilot;
-  const double speed_m_s = pilot.response.speed_max_m_s;
+  const double speed_m_s = scenario.speed_m_s;
   for (MovingObstacle& obstacle : scenario.obstacles) {
     const bool slow = std::hypot(obstacle.velocity_x_m_s, obstacle.velocity_y_m_s) <=
                       pilot.zones.slow_share * speed_m_s;

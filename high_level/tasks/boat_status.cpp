@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "high_level/tasks/boat_status.h"
+
+#include <nlohmann/json.hpp>
+
+#include "mid_level/base/heading.h"
+
+namespace lodesman {
+namespace {
+
+using nlohmann::ordered_json;
+
+void add_mission(const MissionStatus& m, Time now, ordered_json& reply) {
+  reply["state"] = to_string(m.state);
+  reply["cause"] = to_string(m.cause);
+  reply["mission"] = m.mission;
+  reply["speed_m_s"] = m.speed_m_s;
+  reply["time_s"] = m.started == Time{} ? 0.0 : to_seconds(now - m.started);
+  reply["goal_m"] = {m.goal_x_m, m.goal_y_m};
+  reply["aborts"] = m.aborts;
+  if (m.no_way != NoWayCause::kNone) {
+    reply["no_way"] = {{"cause", to_string(m.no_way)}, {"for_s", to_seconds(now - m.no_way_since)}};
+  }
+}
+
+}  // namespace
+
+BoatStatus::BoatStatus(const Blackboard& board)
+    : readiness_{board},
+      mission_{board.mission_status},
+      state_{board.vehicle_state},
+      plan_{board.plan},
+      helm_{board.helm_command} {}
+
+void BoatStatus::add_to(ordered_json& reply, Time now) {
+  if (const auto* mission = mission_.latest(); mission != nullptr) {
+    add_mission(mission->value, now, reply);
+    if (mission->value.state != MissionState::kUnderWay) {
+      reply["not_ready"] = readiness_.reasons(now);
+    }
+  }
+  add_place(reply, now);
+  add_devices(reply, now);
+}
+
+void BoatStatus::add_place(ordered_json& reply, Time now) {
+  if (const auto* state = state_.latest(); state != nullptr) {
+    reply["position_m"] = {state->value.x_m, state->value.y_m};
+    reply["heading_deg"] = compass_deg(state->value.heading_rad);
+    reply["state_age_s"] = to_seconds(now - state->stamp);
+  }
+  if (const auto* plan = plan_.latest(); plan != nullptr) {
+    reply["plan"] = {{"id", plan->value.id},
+                     {"reason", to_string(plan->value.reason)},
+                     {"rung", to_string(plan->value.rung)},
+                     {"waypoints", to_string(plan->value.source)},
+                     {"age_s", to_seconds(now - plan->stamp)}};
+  }
+  if (const auto* helm = helm_.latest(); helm != nullptr) {
+    reply["helm"] = to_string(helm->value.reason);
+  }
+}
+
+void BoatStatus::add_devices(ordered_json& reply, Time now) {
+  for (std::size_t i = 0; i < kDeviceCount; ++i) {
+    const auto id = static_cast<DeviceId>(i);
+    if (const auto* health = readiness_.device(id); health != nullptr) {
+      const DeviceHealth& h = health->value;
+      reply["devices"][to_string(id)] = {
+          {"status", to_string(h.status)}, {"for_s", to_seconds(now - h.since)},
+          {"samples", h.samples},          {"corrupt", h.corrupt},
+          {"refused", h.refused},          {"disconnections", h.disconnections}};
+    }
+  }
+}
+
+}  // namespace lodesman
