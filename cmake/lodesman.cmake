@@ -15,6 +15,8 @@ target_compile_options(lodesman_flags INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
 target_compile_definitions(lodesman_flags INTERFACE _GLIBCXX_ASSERTIONS)
 target_link_libraries(lodesman_flags INTERFACE Threads::Threads)
+# A program loads no library that it calls nothing of.
+target_link_options(lodesman_flags INTERFACE LINKER:--as-needed)
 
 # For what nothing waits for: the tests themselves, and what speaks with people. Compiling it takes
 # most of a cold build's time, half of that without much optimising, and most of the rest for the
