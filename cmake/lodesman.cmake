@@ -34,6 +34,7 @@ function(lodesman_room room)
   string(REPLACE "/" "_" name ${room})
   string(REPLACE "/" "::" alias ${room})
   add_library(lodesman_${name} STATIC ${ARG_UNPARSED_ARGUMENTS})
+  set_property(GLOBAL APPEND PROPERTY LODESMAN_ROOMS ${room})
   add_library(lodesman::${alias} ALIAS lodesman_${name})
   target_link_libraries(lodesman_${name} PUBLIC lodesman_flags ${ARG_LINKS}
                                          PRIVATE ${ARG_PRIVATE_LINKS})
