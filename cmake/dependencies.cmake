@@ -7,9 +7,9 @@ find_package(Boost 1.74 REQUIRED)
 find_package(spdlog REQUIRED)
 
 # Debian ships OpenCV's CMake and pkg-config files only with libopencv-dev, which draws in every
-# module and its dependencies; three modules are enough here.
+# module and its dependencies; two modules are enough here.
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
-foreach(module core imgproc imgcodecs)
+foreach(module core imgproc)
   find_library(OPENCV_${module}_LIBRARY opencv_${module} REQUIRED)
   add_library(opencv::${module} INTERFACE IMPORTED)
   target_include_directories(opencv::${module} SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})
@@ -21,4 +21,6 @@ find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(GEOGRAPHIC REQUIRED IMPORTED_TARGET geographiclib)
+pkg_check_modules(PNG REQUIRED IMPORTED_TARGET libpng)
+pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)

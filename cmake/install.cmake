@@ -3,7 +3,7 @@
 # prefix.
 include(GNUInstallDirs)
 install(TARGETS lodesman lodesman-low lodesman-high RUNTIME)
-install(DIRECTORY deploy/config DESTINATION ${CMAKE_INSTALL_DATADIR}/lodesman/deploy)
+install(DIRECTORY deploy/config deploy/pictures DESTINATION ${CMAKE_INSTALL_DATADIR}/lodesman/deploy)
 install(DIRECTORY hal_sim/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/lodesman/hal_sim)
 install(DIRECTORY docs/ TYPE DOC)
 install(FILES README.md LICENSE TYPE DOC)

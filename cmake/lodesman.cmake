@@ -15,6 +15,8 @@ target_compile_options(lodesman_flags INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
 target_compile_definitions(lodesman_flags INTERFACE _GLIBCXX_ASSERTIONS)
 target_link_libraries(lodesman_flags INTERFACE Threads::Threads)
+# A program loads no library that it calls nothing of.
+target_link_options(lodesman_flags INTERFACE LINKER:--as-needed)
 
 # For what nothing waits for: the tests themselves, and what speaks with people. Compiling it takes
 # most of a cold build's time, half of that without much optimising, and most of the rest for the
@@ -32,6 +34,7 @@ function(lodesman_room room)
   string(REPLACE "/" "_" name ${room})
   string(REPLACE "/" "::" alias ${room})
   add_library(lodesman_${name} STATIC ${ARG_UNPARSED_ARGUMENTS})
+  set_property(GLOBAL APPEND PROPERTY LODESMAN_ROOMS ${room})
   add_library(lodesman::${alias} ALIAS lodesman_${name})
   target_link_libraries(lodesman_${name} PUBLIC lodesman_flags ${ARG_LINKS}
                                          PRIVATE ${ARG_PRIVATE_LINKS})

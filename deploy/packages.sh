@@ -2,8 +2,8 @@
 # Debian packages, and how the set-up scripts install those that are missing. To be sourced.
 
 build_packages="g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev libspdlog-dev
-  libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libtomlplusplus-dev libcli11-dev
-  nlohmann-json3-dev libgeographiclib-dev libxxhash-dev libgnuplot-iostream-dev gnuplot-nox"
+  libopencv-core-dev libopencv-imgproc-dev libpng-dev libturbojpeg0-dev libtomlplusplus-dev
+  libcli11-dev nlohmann-json3-dev libgeographiclib-dev libxxhash-dev gnuplot-nox"
 test_packages="catch2"
 # For tests/bench, which is built with -DLODESMAN_BENCH=ON.
 bench_packages="libbenchmark-dev"

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "low_level/sonar/image_structure.h"
 #include "mid_level/base/heading.h"
@@ -20,7 +19,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Whole signatures: what has half of one OpenCV would hand to decoders of other formats.
 constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n";
 constexpr std::string_view kJpeg = "\xFF\xD8\xFF";
 
@@ -77,7 +75,6 @@ std::uint32_t pgm_number(const Bytes& bytes, std::size_t& at, const std::filesys
   return number;
 }
 
-// Read here, because OpenCV prints its own complaints about a damaged one.
 GreyImage decode_pgm(const Bytes& bytes, const std::filesystem::path& file) {
   std::size_t at = 2;  // after "P5"
   GreyImage image;
@@ -133,29 +130,12 @@ GreyImage read_grey_image(const std::filesystem::path& file) {
   if (!is_whole(bytes)) {
     refuse(file, "the image is truncated");
   }
-  cv::Mat decoded;
-  try {
-    decoded = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-    if (!decoded.empty() && decoded.depth() == CV_8U && decoded.channels() > 1) {
-      cv::cvtColor(decoded, decoded,
-                   decoded.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
-    }
-  } catch (const cv::Exception&) {
-    decoded.release();
+  DecodedImage decoded = starts_with(bytes, kPng) ? decode_png(bytes) : decode_jpeg(bytes);
+  if (decoded.fault != ImageFault::kNone) {
+    refuse(file, decoded.fault == ImageFault::kDamaged ? "the image is damaged"
+                                                       : "must have 8 bits a pixel");
   }
-  if (decoded.empty()) {
-    refuse(file, "the image is damaged");
-  }
-  if (decoded.depth() != CV_8U) {
-    refuse(file, "must have 8 bits a pixel");
-  }
-  GreyImage image{
-      static_cast<std::uint32_t>(decoded.cols), static_cast<std::uint32_t>(decoded.rows), {}};
-  image.pixels.reserve(decoded.total());
-  for (int row = 0; row < decoded.rows; ++row) {
-    image.pixels.insert(image.pixels.end(), decoded.ptr(row), decoded.ptr(row) + decoded.cols);
-  }
-  return image;
+  return std::move(decoded.image);
 }
 
 void polar_to_ping(const GreyImage& image, const std::filesystem::path& file, SonarPing& out) {

@@ -6,17 +6,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <vector>
 
+#include "low_level/sonar/image_codec.h"
 #include "mid_level/messages/sonar.h"
 
 namespace lodesman {
-
-struct GreyImage {
-  std::uint32_t columns = 0;         // [px]
-  std::uint32_t rows = 0;            // [px]
-  std::vector<std::uint8_t> pixels;  // row by row, from the top
-};
 
 // Far beyond any sonar frame, and little enough to decode on any machine.
 inline constexpr std::uint64_t kMaxImagePixels = 64'000'000;

@@ -8,9 +8,10 @@
 #include <fstream>
 #include <numbers>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+
+#include "low_level/sonar/image_codec.h"
 
 namespace lodesman {
 namespace {
@@ -354,12 +355,9 @@ std::vector<std::uint8_t> encode_view(const ViewPicture& picture, ViewFormat for
     return bytes;
   }
   try {
-    const bool png = format == ViewFormat::kPng;
-    const std::vector<int> quality =
-        png ? std::vector<int>{} : std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 92};
-    if (!cv::imencode(png ? ".png" : ".jpg", draw(picture), bytes, quality)) {
-      bytes.clear();
-    }
+    const cv::Mat image = draw(picture);
+    const BgrPixels pixels{image.cols, image.rows, image.data};
+    bytes = format == ViewFormat::kPng ? encode_png(pixels) : encode_jpeg(pixels);
   } catch (const cv::Exception&) {
     bytes.clear();
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/pictures.h"
 
-#include <opencv2/imgcodecs.hpp>
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <span>
 #include <stdexcept>
@@ -10,6 +12,7 @@
 
 #include "low_level/path/jump_point_search.h"
 #include "low_level/path/pixel_steps.h"
+#include "low_level/sonar/image_codec.h"
 #include "tests/bench/reference_a_star.h"
 
 namespace lodesman::bench {
@@ -90,7 +93,10 @@ void draw_legend(cv::Mat& picture, const std::vector<std::pair<cv::Scalar, std::
 }
 
 void save(const cv::Mat& picture, const std::string& path) {
-  if (!cv::imwrite(path, picture, {cv::IMWRITE_PNG_COMPRESSION, 9})) {
+  const auto bytes = encode_png({picture.cols, picture.rows, picture.data});
+  std::ofstream file{path, std::ios::binary};
+  std::copy(bytes.begin(), bytes.end(), std::ostreambuf_iterator<char>{file});
+  if (bytes.empty() || !file.flush()) {
     throw std::runtime_error(path + ": cannot be written");
   }
 }

@@ -26,7 +26,8 @@ TEST_CASE("installed: programs find what is shared beside themselves, and sail",
   }
   CHECK(fs::exists(prefix / "share" / "doc" / "lodesman" / "README.md"));
   const fs::path out = scratch.file("run");
-  CHECK(run(prefix / "bin" / "lodesman", {"sim", "paper-static", "--lockstep", "--quiet",
-                                          "--no-images", "--out", out.string()}) == 0);
+  CHECK(run(prefix / "bin" / "lodesman",
+            {"sim", "paper-static", "--lockstep", "--quiet", "--out", out.string()}) == 0);
   CHECK(nlohmann::json::parse(std::ifstream{out / "result.json"})["outcome"] == "goal");
+  CHECK(fs::exists(out / "heading.png"));
 }

@@ -50,6 +50,8 @@ struct Library {
 [[nodiscard]] const std::vector<Library>& libraries() {
   static const std::vector<Library> table{
       {"opencv2/", {"low_level/sonar/"}},
+      {"png.h", {"low_level/sonar/"}},
+      {"turbojpeg.h", {"low_level/sonar/"}},
       {"toml++/", {"mid_level/config/"}},
       {"GeographicLib/", {"mid_level/base/"}},
       {"boost/interprocess/", {"mid_level/blackboard/"}},

@@ -15,7 +15,6 @@ using Places = std::vector<std::string_view>;
 
 constexpr std::size_t kMaxColumns = 100;
 constexpr std::size_t kMaxFileLines = 400;
-constexpr std::size_t kMaxFunctionLines = 70;
 
 [[nodiscard]] std::string at(const SourceFile& file, std::size_t line, const std::string& what) {
   return file.path + ":" + std::to_string(line) + ": " + what;
@@ -57,35 +56,22 @@ constexpr std::size_t kMaxFunctionLines = 70;
 
 [[nodiscard]] bool needs_licence_line(const SourceFile& file) {
   static const std::regex sources{
-      R"(\.(h|cpp|cmake|sh|py|toml|js|css|html|service|rules)$|CMakeLists\.txt$|\.clang-tidy$)"};
+      R"(\.(h|cpp|cmake|sh|py|gp|toml|js|css|html|service|rules)$|CMakeLists\.txt$|\.clang-tidy$)"};
   return std::regex_search(file.path, sources) || file.text.starts_with("#!");
 }
 
 }  // namespace
 
-Findings clocks_and_sleeps(const SourceFile& file) {
-  return banned(file,
-                R"(\b(steady_clock|system_clock|high_resolution_clock|sleep_for|sleep_until)"
-                R"(|nanosleep|clock_nanosleep|usleep|clock_gettime|gettimeofday)\b)"
-                R"(|\b(sleep|std::time)\s*\()",
-                {"mid_level/base/clock.cpp", "mid_level/runtime/run_realtime.cpp",
-                 "mid_level/blackboard/segment.cpp", "deploy/", "tests/"});
+// The thread sanitizer does not understand them.
+Findings fences(const SourceFile& file) {
+  return banned(file, R"(\batomic_(thread|signal)_fence\b)", {"tests/"});
 }
 
-Findings locks(const SourceFile& file) {
-  return banned(file,
-                R"(\b(mutex|shared_mutex|recursive_mutex|lock_guard|unique_lock|scoped_lock)"
-                R"(|condition_variable|interprocess_mutex|atomic_thread_fence)\b)",
-                {"tests/", "high_level/console/"});
-}
-
-Findings log_calls(const SourceFile& file) {
-  return banned(file, R"(\bspdlog\b|\bfmt::print\b|\bprintf\b|\bstd::(cout|cerr|clog)\b)",
-                {"deploy/", "tests/"});
-}
-
-Findings chance(const SourceFile& file) {
-  return banned(file, R"(\b(s?rand|rand_r|drand48)\s*\(|\brandom_device\b)", {});
+Findings chance_in_tests(const SourceFile& file) {
+  return file.path.starts_with("tests/")
+             ? banned(file, R"(\b(s?rand|rand_r|drand48)\s*\(|\brandom_device\b)",
+                      {"tests/tidy/forbidden_calls.cpp"})
+             : Findings{};
 }
 
 Findings conditionals(const SourceFile& file) {
@@ -133,20 +119,6 @@ Findings long_files(const SourceFile& file) {
   return file.is_cpp() && lines > kMaxFileLines
              ? Findings{at(file, lines, "is longer than 400 lines")}
              : Findings{};
-}
-
-Findings long_functions(const SourceFile& file) {
-  Findings findings;
-  if (!file.is_cpp()) {
-    return findings;
-  }
-  for (const Block& block : blocks_of(file.code)) {
-    if (block.kind == BlockKind::kFunction &&
-        block.last_line - block.first_line + 1 > kMaxFunctionLines) {
-      findings.push_back(at(file, block.first_line, "is a function of more than 70 lines"));
-    }
-  }
-  return findings;
 }
 
 Findings licence_line(const SourceFile& file) {
@@ -240,17 +212,14 @@ const std::vector<Rule>& rules() {
   static const std::vector<Rule> all{
       {"include arrows", include_arrows},
       {"library rooms", library_rooms},
-      {"clocks and sleeps", clocks_and_sleeps},
-      {"locks", locks},
-      {"log calls", log_calls},
-      {"chance", chance},
+      {"fences", fences},
+      {"chance in tests", chance_in_tests},
       {"conditionals", conditionals},
       {"truth readers", truth_readers},
       {"hasty tests", hasty_tests},
       {"numbers from outside", numbers_from_outside},
       {"long lines", long_lines},
       {"long files", long_files},
-      {"long functions", long_functions},
       {"licence line", licence_line},
       {"header opening", header_opening},
       {"message units", message_units},

@@ -34,10 +34,9 @@ struct Arrow {
 [[nodiscard]] Findings include_arrows(const SourceFile& file);
 // A library's headers stay in the rooms that wrap it.
 [[nodiscard]] Findings library_rooms(const SourceFile& file);
-[[nodiscard]] Findings clocks_and_sleeps(const SourceFile& file);
-[[nodiscard]] Findings locks(const SourceFile& file);
-[[nodiscard]] Findings log_calls(const SourceFile& file);
-[[nodiscard]] Findings chance(const SourceFile& file);
+// What leaves no symbol behind, and what tests do: for the rest see symbols.h.
+[[nodiscard]] Findings fences(const SourceFile& file);
+[[nodiscard]] Findings chance_in_tests(const SourceFile& file);
 [[nodiscard]] Findings conditionals(const SourceFile& file);
 [[nodiscard]] Findings truth_readers(const SourceFile& file);
 // CLI11's own ranges let through what is not a number: number_options.h checks.
@@ -46,7 +45,6 @@ struct Arrow {
 [[nodiscard]] Findings hasty_tests(const SourceFile& file);
 [[nodiscard]] Findings long_lines(const SourceFile& file);
 [[nodiscard]] Findings long_files(const SourceFile& file);
-[[nodiscard]] Findings long_functions(const SourceFile& file);
 [[nodiscard]] Findings licence_line(const SourceFile& file);
 [[nodiscard]] Findings header_opening(const SourceFile& file);
 [[nodiscard]] Findings message_units(const SourceFile& file);

@@ -101,7 +101,9 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
   fmt::print("\nrun directory: {}\n", directory.string());
   if (images) {
     for (const char* picture : {"world", "inoffensive_distance", "heading", "thrust"}) {
-      fmt::print("  {}\n", (directory / (std::string{picture} + ".png")).string());
+      if (const fs::path png = directory / (std::string{picture} + ".png"); fs::exists(png)) {
+        fmt::print("  {}\n", png.string());
+      }
     }
     fmt::print("  {}\n", (directory / "sonar").string());
   }
@@ -149,7 +151,7 @@ class RunOutput {
       return;
     }
     try {
-      draw_pictures(directory, record);
+      draw_pictures(directory, record, share_directory() / "deploy" / "pictures");
     } catch (const StartupError& error) {
       note(error.what());
     }

@@ -2,44 +2,29 @@
 #include "deploy/operator/report/gnuplot.h"
 
 #include <fcntl.h>
-#include <gnuplot-iostream.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <fstream>
-#include <sstream>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "deploy/operator/report/output_file.h"
-#include "deploy/operator/report/plot_script.h"
+#include "deploy/operator/report/program_call.h"
 #include "mid_level/base/startup_error.h"
 
 namespace lodesman::cli {
 namespace {
 
-bool gnuplot_is_installed() {
-  const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nobody writes it
-  std::istringstream folders{path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin"};
-  std::string folder;
-  while (std::getline(folders, folder, ':')) {
-    if (::access((std::filesystem::path{folder} / "gnuplot").c_str(), X_OK) == 0) {
-      return true;
-    }
-  }
-  return false;
-}
-
-// The file that gnuplot draws into, which it knows by its number: a path may hold what would end a
-// line of its script, and why a file cannot be written is the system's to say.
+// The file that gnuplot draws into, as its standard output: a path may hold what would end a line
+// of its script, and why a file cannot be written is the system's to say.
 class Canvas {
  public:
   explicit Canvas(const std::filesystem::path& png)
       : file_{unfinished(png)},
-        // Not closed at exec: gnuplot is to find it.
-        descriptor_{::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666)} {
+        descriptor_{::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)} {
     if (descriptor_ < 0) {
       throw StartupError(png.string() +
                          ": cannot be written: " + std::generic_category().message(errno));
@@ -54,15 +39,15 @@ class Canvas {
   }
 
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
-  [[nodiscard]] std::string name() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+  [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 
  private:
   std::filesystem::path file_;
   int descriptor_;
 };
 
-// gnuplot-iostream keeps gnuplot's exit status to itself, and a full disk would not show in it:
-// the picture itself must be whole, from its signature to its last chunk.
+// gnuplot does not notice a full disk: the picture itself must be whole, from its signature to its
+// last chunk.
 bool is_whole_png(const std::filesystem::path& png) {
   constexpr std::string_view kSignature{"\x89PNG\r\n\x1a\n"};
   constexpr std::string_view kEndChunk{"IEND\xae\x42\x60\x82"};
@@ -76,30 +61,43 @@ bool is_whole_png(const std::filesystem::path& png) {
          std::string_view{last.data(), last.size()} == kEndChunk;
 }
 
-}  // namespace
-
-void draw_picture(const std::filesystem::path& png, PictureSize size, const std::string& script) {
-  if (!gnuplot_is_installed()) {
+// The picture's directory is gnuplot's own meanwhile: to gnuplot some first letters of a file's
+// name are commands.
+void run_gnuplot(const std::filesystem::path& png, std::vector<std::string> words,
+                 std::string_view input) {
+  const Canvas canvas{png};
+  words.insert(words.begin(), {"gnuplot", "-d"});
+  const auto directory = png.has_parent_path() ? png.parent_path() : std::filesystem::path{"."};
+  const ProgramResult result = run_program({words, directory, input, canvas.descriptor()});
+  if (result.end == ProgramEnd::kMissing) {
     throw StartupError(png.string() + ": gnuplot is missing: apt-get install gnuplot-nox");
   }
-  const Canvas canvas{png};
-  {
-    // The shell reads what a failed gnuplot leaves unread. Outside a UTF-8 locale, as on a bare
-    // system, gnuplot 6 warns of a degree sign of its own.
-    Gnuplot gnuplot{"LC_ALL=C.UTF-8 gnuplot -d; cat >/dev/null"};
-    gnuplot << "set encoding utf8\nset terminal pngcairo noenhanced font 'Sans,13' size "
-            << size.width_px << ',' << size.height_px << "\nset output " << plot_text(canvas.name())
-            << '\n'
-            << script << "\nunset output\n";
-  }
   std::error_code failed;
-  if (is_whole_png(canvas.file())) {
+  if (result.end == ProgramEnd::kSuccess && is_whole_png(canvas.file())) {
     std::filesystem::rename(canvas.file(), png, failed);
     if (!failed) {
       return;
     }
   }
-  throw StartupError(png.string() + ": gnuplot could not draw it");
+  throw StartupError(png.string() + ": gnuplot could not draw it" +
+                     (result.reason.empty() ? "" : ": " + result.reason));
+}
+
+}  // namespace
+
+void draw_picture(const std::filesystem::path& png, PictureSize size, const std::string& script) {
+  run_gnuplot(png, {},
+              "set encoding utf8\nset terminal pngcairo noenhanced font 'Sans,13' size " +
+                  std::to_string(size.width_px) + ',' + std::to_string(size.height_px) +
+                  "\nset output\n" + script + "\nunset output\n");
+}
+
+void draw_by_file(const std::filesystem::path& png, const std::filesystem::path& script,
+                  const std::string& variables) {
+  run_gnuplot(png,
+              {"-e", variables + "output = '/dev/stdout'", "-c",
+               std::filesystem::absolute(script).string()},
+              {});
 }
 
 }  // namespace lodesman::cli

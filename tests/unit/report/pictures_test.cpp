@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -6,6 +8,8 @@
 #include "deploy/operator/report/gnuplot.h"
 #include "deploy/operator/report/plot_script.h"
 #include "deploy/operator/report/plots.h"
+#include "deploy/operator/report/program_call.h"
+#include "deploy/operator/report/run_files.h"
 #include "deploy/operator/report/world_story.h"
 #include "mid_level/base/startup_error.h"
 #include "tests/support/catch.h"
@@ -25,16 +29,29 @@ bool is_png(const std::filesystem::path& path) {
   return bytes.size() > 1000 && bytes.starts_with("\x89PNG\r\n\x1a\n");
 }
 
+const std::filesystem::path kScripts{LODESMAN_SOURCE_DIR "/deploy/pictures"};
+
+// As a run leaves its directory.
+void write_and_draw(const std::filesystem::path& directory, const cli::RunRecord& run) {
+  cli::RunFiles files{directory};
+  for (const cli::TrajectoryRow& row : run.trajectory) {
+    files.add(row);
+  }
+  files.finish(run.result);
+  REQUIRE(files.fault().empty());
+  cli::draw_pictures(directory, run, kScripts);
+}
+
 void check_pictures(const cli::RunRecord& run) {
   const testing::TemporaryDirectory directory;
-  cli::draw_pictures(directory.path(), run);
+  write_and_draw(directory.path(), run);
   for (const char* name : kNames) {
     INFO(name);
     CHECK(is_png(directory.path() / name));
   }
   const auto files = std::distance(std::filesystem::directory_iterator{directory.path()},
                                    std::filesystem::directory_iterator{});
-  CHECK(files == 4);
+  CHECK(files == 7);  // and three of text
 }
 
 std::string refusal(const std::filesystem::path& png, const std::string& script) {
@@ -96,7 +113,8 @@ TEST_CASE("pictures: a directory's name may hold anything", "[report]") {
   const testing::TemporaryDirectory directory;
   const auto odd = directory.path() / "it's `a` \"run\" $HOME \\";
   std::filesystem::create_directory(odd);
-  cli::draw_thrust(odd / "thrust.png", testing::static_run());
+  write_and_draw(odd, testing::static_run());
+  CHECK(is_png(odd / "world.png"));
   CHECK(is_png(odd / "thrust.png"));
 }
 
@@ -120,6 +138,45 @@ TEST_CASE("pictures: a file that cannot be written or drawn is named, none is le
   CHECK(refusal(broken, "exit\n" + std::string(1'000'000, '#')) ==
         broken.string() + ": gnuplot could not draw it");
   CHECK_FALSE(std::filesystem::exists(broken));
+}
+
+TEST_CASE("pictures: what gnuplot says of a script is passed on, and its exit status decides",
+          "[report]") {
+  const testing::TemporaryDirectory directory;
+  const auto png = directory.path() / "a.png";
+  const std::string complaint = png.string() + ": gnuplot could not draw it: ";
+  CHECK(refusal(png, "plot x\nplot nonsense").starts_with(complaint));
+  CHECK(refusal(png, "plot x\nplot nonsense").ends_with("undefined variable: nonsense"));
+  CHECK(refusal(png, "plot x\nunset output\nexit status 3") == complaint + "exit status 3");
+  CHECK_FALSE(std::filesystem::exists(png));
+}
+
+TEST_CASE("pictures: a script that is gone or a trajectory that is lost is a picture not drawn",
+          "[report]") {
+  const testing::TemporaryDirectory directory;
+  const cli::RunRecord run = testing::static_run();
+  CHECK_THROWS_AS(cli::draw_pictures(directory.path(), run, kScripts), StartupError);
+  CHECK_FALSE(std::filesystem::exists(directory.path() / "heading.png"));
+  CHECK_THROWS_AS(cli::draw_by_file(directory.path() / "a.png", kScripts / "none.gp", ""),
+                  StartupError);
+}
+
+// The shipped scripts alone, as README.md has a user run them.
+TEST_CASE("pictures: a script draws a run by itself", "[report]") {
+  const testing::TemporaryDirectory directory;
+  write_and_draw(directory.path(), testing::static_run());
+  for (const std::string name : {"inoffensive_distance", "heading", "thrust"}) {
+    const auto png = directory.path() / (name + ".png");
+    std::filesystem::remove(png);
+    const cli::ProgramResult result = cli::run_program(
+        {{"gnuplot", "-c", (kScripts / (name + ".gp")).string(), directory.path().string()},
+         "/",
+         "",
+         STDERR_FILENO});
+    INFO(name << ": " << result.reason);
+    CHECK(result.end == cli::ProgramEnd::kSuccess);
+    CHECK(is_png(png));
+  }
 }
 
 TEST_CASE("pictures: any name of a file is that file's", "[report]") {
@@ -171,6 +228,6 @@ TEST_CASE("pictures: samples to look at", "[.samples]") {
   for (const auto& [name, run] : runs) {
     const auto directory = std::filesystem::path{"report_samples"} / name;
     std::filesystem::create_directories(directory);
-    CHECK_NOTHROW(cli::draw_pictures(directory, run));
+    CHECK_NOTHROW(write_and_draw(directory, run));
   }
 }
