@@ -24,8 +24,11 @@ WorldTask::WorldTask(const Scenario& scenario, const VesselParameters& vessel,
     : world_{from_where_it_lies(scenario, blackboard), vessel},
       mission_status_{blackboard.mission_status},
       box_{link.thrust},
-      truth_out_{blackboard.world_truth, Role::kLow, "world_truth"},
-      sample_out_{link.world, Role::kLow, "world sample"} {}
+      truth_out_{writer_of(blackboard, blackboard.world_truth, Role::kLow)},
+      sample_out_{link.world, Role::kLow, "world sample"},
+      sensors_{Rung{link.heading_due, blackboard.bell_of(TaskId::kAhrs)},
+               Rung{link.position_due, blackboard.bell_of(TaskId::kPosition)},
+               Rung{link.sonar_due, blackboard.bell_of(TaskId::kDeltaT)}} {}
 
 void WorldTask::step(Time now) noexcept {
   const Stamped<MissionStatus>* mission = mission_status_.latest();
@@ -60,8 +63,18 @@ void WorldTask::publish(Time now, bool started, ThrustCommand thrust) noexcept {
   sample.surge_m_s = truth.surge_m_s;
   sample.sway_m_s = truth.sway_m_s;
   sample.yaw_rate_rad_s = truth.yaw_rate_rad_s;
-  sample_out_.publish(sample, now);
+  // The truth first: whoever is woken by a sample may look at it.
   truth_out_.publish(truth, now);
+  sample_out_.publish(sample, now);
+  ring_for_samples(now);
+}
+
+void WorldTask::ring_for_samples(Time now) noexcept {
+  for (const Rung& sensor : sensors_) {
+    if (sensor.due.has_come(now)) {
+      ring(sensor.bell);
+    }
+  }
 }
 
 }  // namespace lodesman

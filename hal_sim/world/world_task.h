@@ -3,6 +3,8 @@
 // truth on the blackboard and the sample that the simulated devices sense. One thread steps it.
 #pragma once
 
+#include <array>
+
 #include "hal_sim/world/sim_link.h"
 #include "hal_sim/world/world.h"
 #include "mid_level/blackboard/blackboard.h"
@@ -28,13 +30,21 @@ class WorldTask final : public Task {
   // After a gap (the machine slept) no more than this is caught up with.
   static constexpr Duration kLongestStep = std::chrono::seconds{1};
 
+  // Wakes the tasks whose simulated device has a sample to be polled.
+  void ring_for_samples(Time now) noexcept;
   void publish(Time now, bool started, ThrustCommand thrust) noexcept;
+
+  struct Rung {
+    const SampleDue& due;
+    Bell<>& bell;
+  };
 
   World world_;
   Reader<MissionStatus> mission_status_;
   Reader<SimThrust> box_;
   Writer<WorldTruth> truth_out_;
   Writer<WorldSample> sample_out_;
+  std::array<Rung, 3> sensors_;
   Time stepped_to_{};
   Time mission_started_{};
 };

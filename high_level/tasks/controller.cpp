@@ -30,7 +30,7 @@ ControllerTask::ControllerTask(Blackboard& board, Role role, const ControllerOpt
       vehicle_state_{board.vehicle_state},
       mission_status_{board.mission_status},
       plan_{board.plan},
-      commands_{board.helm_command, role, "helm_command"} {}
+      commands_{writer_of(board, board.helm_command, role)} {}
 
 void ControllerTask::step(Time now) noexcept { commands_.publish(decide(now), now); }
 

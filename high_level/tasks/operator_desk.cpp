@@ -46,7 +46,7 @@ using nlohmann::ordered_json;
 
 OperatorDesk::OperatorDesk(Blackboard& board, Role role, Now now)
     : now_{std::move(now)},
-      orders_{board.operator_command, role, "operator_command"},
+      orders_{writer_of(board, board.operator_command, role)},
       mission_{board.mission_status},
       state_{board.vehicle_state},
       plan_{board.plan},

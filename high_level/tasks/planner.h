@@ -37,6 +37,7 @@ class PlannerTask final : public Task {
   void replan_in_view(Time now) noexcept;
   void replan_in_world(Time now) noexcept;
   void publish(const Plan* plan, Time now) noexcept;
+  void tell(const MissionStatus& status, Time now) noexcept;
   [[nodiscard]] Missing missing(Time now) noexcept;
   void watch_progress(Time now) noexcept;
   [[nodiscard]] ProgressSample progress_sample(Time now) noexcept;
@@ -51,6 +52,7 @@ class PlannerTask final : public Task {
   NoWayCause no_way_ = NoWayCause::kNone;
   WorldPoint position_;  // the last known
   Time stepped_{};
+  MissionState told_state_ = MissionState::kIdle;
   bool was_absent_ = false;  // under way, and its place is not known again yet
   Reader<OperatorCommand> orders_;
   Reader<VehicleState> vehicle_state_;

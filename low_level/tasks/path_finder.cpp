@@ -11,7 +11,7 @@ PathFinderTask::PathFinderTask(Blackboard& board, Role role, double range_m)
     : range_m_{range_m},
       requests_{board.path_request},
       obstacles_{board.sonar_obstacles},
-      paths_{board.sonar_path, role, "sonar_path"} {
+      paths_{writer_of(board, board.sonar_path, role)} {
   // What was asked before this task existed is nobody's question any more.
   if (const auto* old = requests_.latest(); old != nullptr) {
     answered_ = old->sequence;

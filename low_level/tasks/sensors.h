@@ -12,7 +12,7 @@ namespace lodesman {
 class AhrsTask final : public Task {
  public:
   AhrsTask(Blackboard& board, Role role, HeadingSensor& sensor)
-      : sensor_{sensor}, attitudes_{board.attitude, role, "attitude"} {}
+      : sensor_{sensor}, attitudes_{writer_of(board, board.attitude, role)} {}
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override { return refused_; }
 
@@ -25,7 +25,7 @@ class AhrsTask final : public Task {
 class PositionTask final : public Task {
  public:
   PositionTask(Blackboard& board, Role role, PositionSensor& sensor)
-      : sensor_{sensor}, fixes_{board.position_fix, role, "position_fix"} {}
+      : sensor_{sensor}, fixes_{writer_of(board, board.position_fix, role)} {}
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override { return refused_; }
 

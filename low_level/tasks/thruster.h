@@ -15,7 +15,7 @@ class ThrusterTask final : public Task {
   ThrusterTask(Blackboard& board, Role role, ThrusterPair& thrusters)
       : thrusters_{thrusters},
         helm_{board.helm_command},
-        applied_{board.thrust_applied, role, "thrust_applied"} {}
+        applied_{writer_of(board, board.thrust_applied, role)} {}
 
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override { return helm_.refused(); }
