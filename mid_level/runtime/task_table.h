@@ -16,16 +16,18 @@ inline constexpr std::array<TaskSpec, kTaskCount> kTaskTable = [] {
   using ms = std::chrono::milliseconds;
   using us = std::chrono::microseconds;
   return std::array<TaskSpec, kTaskCount>{{
-      // task, period, phase, SCHED_FIFO priority, budget, deadline, least gap, nominal time
-      {TaskId::kWorld, ms{20}, ms{0}, 40, ms{2}, ms{10}, ms{1}, us{40}},
-      {TaskId::kAhrs, ms{20}, ms{0}, 60, ms{1}, ms{5}, ms{1}, us{20}},
-      {TaskId::kPosition, ms{100}, ms{0}, 30, ms{1}, ms{20}, ms{1}, us{20}},
-      {TaskId::kEstimator, ms{50}, ms{2}, 50, ms{1}, ms{5}, ms{1}, us{20}},
-      {TaskId::kDeltaT, ms{20}, ms{4}, 30, ms{10}, ms{20}, ms{1}, us{200}},
-      {TaskId::kPathFinder, ms{20}, ms{6}, 20, ms{10}, ms{20}, ms{1}, us{200}},
-      {TaskId::kPlanner, ms{50}, ms{8}, 20, ms{10}, ms{20}, ms{1}, us{200}},
-      {TaskId::kController, ms{50}, ms{10}, 50, ms{1}, ms{5}, ms{1}, us{30}},
-      {TaskId::kThruster, ms{50}, ms{12}, 70, ms{2}, ms{5}, ms{1}, us{30}},
+      // task, period, phase, SCHED_FIFO priority, budget, deadline, least gap, nominal time. DeltaT
+      // and the planner are rung for twice a ping, for its estimate and for its path: a longer gap
+      // would be waited for each time. Nominal: what lay between two begins on an idle machine.
+      {TaskId::kWorld, ms{20}, ms{0}, 40, ms{2}, ms{10}, ms{1}, us{80}},
+      {TaskId::kAhrs, ms{20}, ms{0}, 60, ms{1}, ms{5}, ms{1}, us{60}},
+      {TaskId::kPosition, ms{100}, ms{0}, 30, ms{1}, ms{20}, ms{1}, us{60}},
+      {TaskId::kEstimator, ms{50}, ms{2}, 50, ms{1}, ms{5}, ms{1}, us{60}},
+      {TaskId::kDeltaT, ms{20}, ms{4}, 30, ms{10}, ms{20}, us{200}, us{100}},
+      {TaskId::kPathFinder, ms{20}, ms{6}, 20, ms{10}, ms{20}, ms{1}, us{150}},
+      {TaskId::kPlanner, ms{50}, ms{8}, 20, ms{10}, ms{20}, us{200}, us{100}},
+      {TaskId::kController, ms{50}, ms{10}, 50, ms{1}, ms{5}, ms{1}, us{60}},
+      {TaskId::kThruster, ms{50}, ms{12}, 70, ms{2}, ms{5}, ms{1}, us{60}},
   }};
 }();
 

@@ -59,12 +59,12 @@ TEST_CASE("docs: the table of tasks is the program's own", "[docs]") {
     std::ostringstream row;
     row << "| " << to_string(spec.id) << " | " << in_ms(spec.period) << " | " << in_ms(spec.phase)
         << " | " << spec.fifo_priority << " | " << woken_by(spec.id) << " | "
-        << in_ms(spec.least_gap) << " | " << in_ms(spec.budget) << " | " << in_ms(spec.deadline)
+        << in_us(spec.least_gap) << " | " << in_ms(spec.budget) << " | " << in_ms(spec.deadline)
         << " | " << in_us(spec.nominal) << " |";
     rows.push_back(row.str());
   }
   CHECK(
-      documented_rows("| task | period ms | phase ms | priority | woken by | gap ms | budget ms | "
+      documented_rows("| task | period ms | phase ms | priority | woken by | gap us | budget ms | "
                       "deadline ms | nominal us |") == rows);
 }
 
