@@ -10,13 +10,10 @@ namespace {
 // thread runs beside the poller's and may have woken just after it.
 constexpr std::uint64_t kSamplesAhead_max = 4;
 
-// The world's steps come with the jitter of its thread: a sample so early is due.
-constexpr Duration kEarly_max = std::chrono::milliseconds{5};
-
 }  // namespace
 
-SampleFeed::SampleFeed(const SimLink& link, Duration period, FaultSchedule faults)
-    : world_{link.world}, period_{period}, faults_{std::move(faults)} {}
+SampleFeed::SampleFeed(const SimLink& link, SampleDue& due, Duration period, FaultSchedule faults)
+    : world_{link.world}, due_{due}, period_{period}, faults_{std::move(faults)} {}
 
 const WorldSample* SampleFeed::newest_not_after(Time now) noexcept {
   const std::uint64_t newest = world_.newest_sequence();
@@ -39,14 +36,15 @@ SampleFeed::Due SampleFeed::poll(Time now) noexcept {
   if (fault == FaultKind::kDisconnect) {
     return {ReadStatus::kDisconnected, {}};
   }
-  const bool due =
-      !any_given_ || (sample->stamp > last_given_ && sample->stamp + kEarly_max >= next_due_);
+  const bool due = !any_given_ || (sample->stamp > last_given_ &&
+                                   sample->stamp + SampleDue::kEarly_max >= next_due_);
   if (!due || fault == FaultKind::kStall) {
     return {};
   }
   // The sensor keeps its phase, unless it fell behind by more than a period.
   const bool behind = !any_given_ || sample->stamp >= next_due_ + period_;
   next_due_ = (behind ? sample->stamp : next_due_) + period_;
+  due_.next_at(next_due_);
   last_given_ = sample->stamp;
   any_given_ = true;
   return {fault == FaultKind::kCorrupt ? ReadStatus::kCorrupt : ReadStatus::kFresh, *sample};

@@ -11,8 +11,8 @@ namespace lodesman {
 
 class SampleFeed {
  public:
-  // The channel must outlive the feed.
-  SampleFeed(const SimLink& link, Duration period, FaultSchedule faults);
+  // Link and due time, which is of the link, must outlive the feed.
+  SampleFeed(const SimLink& link, SampleDue& due, Duration period, FaultSchedule faults);
 
   struct Due {
     ReadStatus status = ReadStatus::kNothingNew;
@@ -25,6 +25,7 @@ class SampleFeed {
   [[nodiscard]] const WorldSample* newest_not_after(Time now) noexcept;
 
   Reader<WorldSample> world_;
+  SampleDue& due_;
   Duration period_;
   FaultSchedule faults_;
   bool any_given_ = false;

@@ -23,8 +23,8 @@ constexpr double kMaxRateCount = 32767.0;
 
 }  // namespace
 
-SimHeadingSensor::SimHeadingSensor(const Scenario& scenario, const SimLink& link)
-    : feed_{link, kPeriod, FaultSchedule{scenario.faults, FaultDevice::kAhrs}} {}
+SimHeadingSensor::SimHeadingSensor(const Scenario& scenario, SimLink& link)
+    : feed_{link, link.heading_due, kPeriod, FaultSchedule{scenario.faults, FaultDevice::kAhrs}} {}
 
 Reading<Attitude> SimHeadingSensor::poll(Time now) noexcept {
   const SampleFeed::Due due = feed_.poll(now);

@@ -12,7 +12,7 @@ namespace lodesman {
 class SimHeadingSensor final : public HeadingSensor {
  public:
   // The link must outlive the sensor.
-  SimHeadingSensor(const Scenario& scenario, const SimLink& link);
+  SimHeadingSensor(const Scenario& scenario, SimLink& link);
   [[nodiscard]] Reading<Attitude> poll(Time now) noexcept override;
 
  private:

@@ -17,8 +17,9 @@ constexpr double kCountsPerDegree = 60.0 * 1e5;
 
 }  // namespace
 
-SimPositionSensor::SimPositionSensor(const Scenario& scenario, const SimLink& link)
-    : feed_{link, kPeriod, FaultSchedule{scenario.faults, FaultDevice::kPosition}},
+SimPositionSensor::SimPositionSensor(const Scenario& scenario, SimLink& link)
+    : feed_{link, link.position_due, kPeriod,
+            FaultSchedule{scenario.faults, FaultDevice::kPosition}},
       frame_{{scenario.environment.origin_latitude_deg, scenario.environment.origin_longitude_deg}},
       sigma_m_{scenario.position.gps_sigma_m},
       noise_{"position", scenario.seed} {}

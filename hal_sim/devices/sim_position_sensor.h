@@ -14,7 +14,7 @@ namespace lodesman {
 class SimPositionSensor final : public PositionSensor {
  public:
   // The link must outlive the sensor.
-  SimPositionSensor(const Scenario& scenario, const SimLink& link);
+  SimPositionSensor(const Scenario& scenario, SimLink& link);
   [[nodiscard]] Reading<PositionFix> poll(Time now) noexcept override;
 
  private:

@@ -16,8 +16,8 @@ constexpr std::array<std::uint8_t, 4> kEcho = {200, 150, 100, 50};
 
 }  // namespace
 
-SimSonar::SimSonar(const Scenario& scenario, const SimLink& link)
-    : feed_{link, from_seconds(1.0 / scenario.sonar.ping_hz),
+SimSonar::SimSonar(const Scenario& scenario, SimLink& link)
+    : feed_{link, link.sonar_due, from_seconds(1.0 / scenario.sonar.ping_hz),
             FaultSchedule{scenario.faults, FaultDevice::kSonar}},
       settings_{scenario.sonar},
       obstacles_{scenario.obstacles} {

@@ -15,7 +15,7 @@ namespace lodesman {
 class SimSonar final : public ImagingSonar {
  public:
   // The link must outlive the sonar.
-  SimSonar(const Scenario& scenario, const SimLink& link);
+  SimSonar(const Scenario& scenario, SimLink& link);
   [[nodiscard]] ReadStatus poll(Time now, SonarPing& out) noexcept override;
 
  private:

@@ -4,6 +4,7 @@
 // or a Writer of its own.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 
 #include "drivers/hal/devices.h"
@@ -53,9 +54,31 @@ struct SimThrust {
   }
 };
 
+// When a simulated sensor has its next sample: said by its own thread, so that the world rings for
+// it then. What is said too late costs one ring more.
+class SampleDue {
+ public:
+  // The world's steps come with the jitter of its thread: a sample so early is due.
+  static constexpr Duration kEarly_max = std::chrono::milliseconds{5};
+
+  void next_at(Time at) noexcept {
+    at_ns_.store(at.time_since_epoch().count(), std::memory_order_relaxed);
+  }
+  [[nodiscard]] bool has_come(Time now) const noexcept {
+    const Time next{Duration{at_ns_.load(std::memory_order_relaxed)}};
+    return now + kEarly_max >= next;
+  }
+
+ private:
+  std::atomic<std::int64_t> at_ns_{0};
+};
+
 struct SimLink {
   Channel<WorldSample, 64> world;
   Channel<SimThrust, 8> thrust;
+  SampleDue heading_due;
+  SampleDue position_due;
+  SampleDue sonar_due;
 };
 
 // The box stops both thrusters by itself when no command came for longer than this (ours: the

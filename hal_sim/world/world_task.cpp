@@ -26,9 +26,12 @@ WorldTask::WorldTask(const Scenario& scenario, const VesselParameters& vessel,
       vehicle_state_{blackboard.vehicle_state},
       mission_status_{blackboard.mission_status},
       box_{link.thrust},
-      sample_out_{link.world, Role::kLow, "world sample"} {
+      sample_out_{link.world, Role::kLow, "world sample"},
+      sensors_{Rung{link.heading_due, blackboard.bell_of(TaskId::kAhrs)},
+               Rung{link.position_due, blackboard.bell_of(TaskId::kPosition)},
+               Rung{link.sonar_due, blackboard.bell_of(TaskId::kDeltaT)}} {
   if (moved_by_ == MovedBy::kThrust) {
-    truth_out_.emplace(blackboard.world_truth, Role::kLow, "world_truth");
+    truth_out_.emplace(writer_of(blackboard, blackboard.world_truth, Role::kLow));
   }
 }
 
@@ -68,8 +71,10 @@ void WorldTask::publish_truth(Time now, ThrustCommand thrust) noexcept {
   sample.surge_m_s = truth.surge_m_s;
   sample.sway_m_s = truth.sway_m_s;
   sample.yaw_rate_rad_s = truth.yaw_rate_rad_s;
-  sample_out_.publish(sample, now);
+  // The truth first: whoever is woken by a sample may look at it.
   truth_out_->publish(truth, now);
+  sample_out_.publish(sample, now);
+  ring_for_samples(now);
 }
 
 // Nothing is simulated round a boat that does not know where it is.
@@ -88,6 +93,15 @@ void WorldTask::publish_estimate(Time now) noexcept {
   sample.heading_rad = state->value.heading_rad;
   sample.surge_m_s = state->value.surge_m_s;
   sample_out_.publish(sample, now);
+  ring_for_samples(now);
+}
+
+void WorldTask::ring_for_samples(Time now) noexcept {
+  for (const Rung& sensor : sensors_) {
+    if (sensor.due.has_come(now)) {
+      ring(sensor.bell);
+    }
+  }
 }
 
 }  // namespace lodesman

@@ -3,6 +3,7 @@
 // truth on the blackboard and the sample that the simulated devices sense. One thread steps it.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "hal_sim/world/sim_link.h"
@@ -36,6 +37,13 @@ class WorldTask final : public Task {
 
   void publish_truth(Time now, ThrustCommand thrust) noexcept;
   void publish_estimate(Time now) noexcept;
+  // Wakes the tasks whose simulated device has a sample to be polled.
+  void ring_for_samples(Time now) noexcept;
+
+  struct Rung {
+    const SampleDue& due;
+    Bell<>& bell;
+  };
 
   MovedBy moved_by_;
   World world_;
@@ -44,6 +52,7 @@ class WorldTask final : public Task {
   Reader<SimThrust> box_;
   std::optional<Writer<WorldTruth>> truth_out_;
   Writer<WorldSample> sample_out_;
+  std::array<Rung, 3> sensors_;
   Time stepped_to_{};
   Time mission_started_{};  // the first one; 0 before it
 };

@@ -9,6 +9,9 @@
 namespace lodesman {
 namespace {
 
+// A frame that comes so early is due: frames come with the jitter of the threads that bring them.
+constexpr Duration kEarly_max = std::chrono::milliseconds{5};
+
 [[nodiscard]] VehiclePose pose_of(const VehicleState& state) noexcept {
   return {{{state.x_m, state.y_m}}, Heading::clockwise_from_y_rad(state.heading_rad)};
 }
@@ -71,7 +74,7 @@ void Replanner::start(Time now) noexcept {
 }
 
 bool Replanner::is_due(Time now, std::uint64_t frame) const noexcept {
-  const bool due = !asked_ || now - *asked_ >= options_.replan_period;
+  const bool due = !asked_ || now - *asked_ + kEarly_max >= options_.replan_period;
   return due && !pending_ && frame != planned_frame_;
 }
 

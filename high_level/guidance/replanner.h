@@ -37,7 +37,8 @@ class PoseHistory {
   [[nodiscard]] std::optional<VehiclePose> at(Time at) const noexcept;
 
  private:
-  static constexpr std::size_t kSize = 128;
+  static constexpr std::size_t kSize =
+      160;  // two seconds and more, with a step of the planner every 14 ms
   std::array<VehicleState, kSize> ring_{};
   std::size_t count_ = 0;  // ever added
 };

@@ -31,7 +31,7 @@ ControllerTask::ControllerTask(Blackboard& board, Role role, const ControllerOpt
       mission_status_{board.mission_status},
       plan_{board.plan},
       tunables_{board.tunables},
-      commands_{board.helm_command, role, "helm_command"} {}
+      commands_{writer_of(board, board.helm_command, role)} {}
 
 void ControllerTask::step(Time now) noexcept {
   take_tunables();

@@ -15,7 +15,7 @@ EstimatorTask::EstimatorTask(Blackboard& board, Role role, const EstimatorOption
       position_fix_{board.position_fix},
       world_truth_{board.world_truth},
       thrust_applied_{board.thrust_applied},
-      states_{board.vehicle_state, role, "vehicle_state"} {}
+      states_{writer_of(board, board.vehicle_state, role)} {}
 
 void EstimatorTask::step(Time now) noexcept {
   const auto* attitude = attitude_.fresh(now, max_age::kAttitude);

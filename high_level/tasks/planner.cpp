@@ -49,9 +49,9 @@ PlannerTask::PlannerTask(Blackboard& board, Role role, PlannerOptions options)
       plan_{board.plan},
       helm_{board.helm_command},
       thrust_applied_{board.thrust_applied},
-      requests_{board.path_request, role, "path_request"},
-      plans_{board.plan, role, "plan"},
-      statuses_{board.mission_status, role, "mission_status"} {
+      requests_{writer_of(board, board.path_request, role)},
+      plans_{writer_of(board, board.plan, role)},
+      statuses_{writer_of(board, board.mission_status, role)} {
   // Orders from before this program started are not for it, but an abort stands.
   std::uint64_t aborts = 0;
   while (const auto* order = orders_.next()) {
@@ -84,7 +84,17 @@ void PlannerTask::step(Time now) noexcept {
   MissionStatus status = mission_.status();
   status.no_way = no_way_;
   status.no_way_since = no_way_ == NoWayCause::kNone ? Time{} : progress_.since();
-  statuses_.publish(status, now);
+  tell(status, now);
+}
+
+// Its state is news to who waits for it, that it still stands is none.
+void PlannerTask::tell(const MissionStatus& status, Time now) noexcept {
+  if (status.state == told_state_) {
+    statuses_.publish_quietly(status, now);
+  } else {
+    statuses_.publish(status, now);
+    told_state_ = status.state;
+  }
 }
 
 void PlannerTask::hold_after_absence(Time now, bool estimate_is_fresh) noexcept {

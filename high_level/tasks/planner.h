@@ -42,6 +42,7 @@ class PlannerTask final : public Task {
   void replan_in_view(Time now) noexcept;
   void replan_in_world(Time now) noexcept;
   void publish(const Plan* plan, Time now) noexcept;
+  void tell(const MissionStatus& status, Time now) noexcept;
   [[nodiscard]] Missing missing(Time now) noexcept;
   void watch_progress(Time now) noexcept;
   [[nodiscard]] ProgressSample progress_sample(Time now) noexcept;
@@ -56,7 +57,8 @@ class PlannerTask final : public Task {
   NoWayCause no_way_ = NoWayCause::kNone;
   WorldPoint position_;  // the last known
   Time stepped_{};
-  Time started_{};              // of the mission that the replanner was told of
+  Time started_{};  // of the mission that the replanner was told of
+  MissionState told_state_ = MissionState::kIdle;
   bool was_absent_ = false;     // under way, and its place is not known again yet
   std::uint64_t tuned_ = 0;     // Tunables::version taken on
   std::int32_t surge_ref_ = 0;  // that the replanner was told of

@@ -7,6 +7,13 @@
 #include "low_level/sonar/known_obstacles.h"
 
 namespace lodesman {
+namespace {
+
+// A ping and the attitude of its time come together, so that the estimate comes a moment later.
+// Without it so long after the ping, the newest one does.
+constexpr Duration kEstimatePatience = std::chrono::milliseconds{10};
+
+}  // namespace
 
 DeltaTTask::DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaTOptions options)
     : sonar_{sonar},
@@ -14,9 +21,9 @@ DeltaTTask::DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaT
       segmenter_{options_.segmentation},
       vehicle_state_{board.vehicle_state},
       mission_status_{board.mission_status},
-      pings_{board.sonar_ping, role, "sonar_ping"},
-      obstacles_{board.sonar_obstacles, role, "sonar_obstacles"},
-      tracks_{board.tracks, role, "tracks"},
+      pings_{writer_of(board, board.sonar_ping, role)},
+      obstacles_{writer_of(board, board.sonar_obstacles, role)},
+      tracks_{writer_of(board, board.tracks, role)},
       device_{board, role, DeviceId::kSonar, max_age::kSonarFrame} {
   if (options_.known_scene) {
     oracle_.emplace(*options_.known_scene, options_.track_oracle);
@@ -24,12 +31,32 @@ DeltaTTask::DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaT
 }
 
 void DeltaTTask::step(Time now) noexcept {
-  const bool taken = take_ping(now);
+  holds_ping_ = holds_ping_ || take_ping(now);
   device_.publish(now);
-  if (!taken) {
-    return;
+  if (holds_ping_ && !awaits_estimate(now)) {
+    holds_ping_ = false;
+    publish_what_it_shows(now);
+  }
+}
+
+bool DeltaTTask::take_ping(Time now) noexcept {
+  const ReadStatus status = sonar_.poll(now, *ping_);
+  const bool believed = status == ReadStatus::kFresh && sane(*ping_);
+  device_.keeper().polled(status, believed, now);
+  if (!believed) {
+    return false;
   }
   pings_.publish(*ping_, now);
+  return true;
+}
+
+bool DeltaTTask::awaits_estimate(Time now) noexcept {
+  const auto* state = vehicle_state_.fresh(now, max_age::kVehicleState);
+  return state != nullptr && state->value.valid_at < ping_->captured &&
+         now - ping_->captured < kEstimatePatience;
+}
+
+void DeltaTTask::publish_what_it_shows(Time now) noexcept {
   if (options_.known_scene) {
     if (!see_known_scene(now)) {
       return;
@@ -44,13 +71,6 @@ void DeltaTTask::step(Time now) noexcept {
   if (oracle_ || place_frame(now)) {
     tracks_.publish(*known_, now);
   }
-}
-
-bool DeltaTTask::take_ping(Time now) noexcept {
-  const ReadStatus status = sonar_.poll(now, *ping_);
-  const bool believed = status == ReadStatus::kFresh && sane(*ping_);
-  device_.keeper().polled(status, believed, now);
-  return believed;
 }
 
 bool DeltaTTask::place_frame(Time now) noexcept {

@@ -35,8 +35,11 @@ class DeltaTTask final : public Task {
   }
 
  private:
-  // Whether there is a ping that can be believed.
+  // Whether there is a new ping that can be believed.
   [[nodiscard]] bool take_ping(Time now) noexcept;
+  // Whether the estimate of the ping's own time is about to come.
+  [[nodiscard]] bool awaits_estimate(Time now) noexcept;
+  void publish_what_it_shows(Time now) noexcept;
   // False when the estimate is stale: then nothing is known of where the obstacles are.
   [[nodiscard]] bool see_known_scene(Time now) noexcept;
   // Tracks of what was just seen, at the newest estimate; false when that is stale.
@@ -52,6 +55,7 @@ class DeltaTTask final : public Task {
   Writer<Tracks> tracks_;
   std::optional<TrackOracle> oracle_;
   DeviceReport device_;
+  bool holds_ping_ = false;  // published, and waits for its estimate
   // Too large for a stack.
   std::unique_ptr<SonarPing> ping_ = std::make_unique<SonarPing>();
   std::unique_ptr<SonarObstacles> seen_ = std::make_unique<SonarObstacles>();

@@ -11,7 +11,7 @@ class DeviceReport {
  public:
   DeviceReport(Blackboard& board, Role role, DeviceId device, Duration silence_limit)
       : keeper_{silence_limit},
-        writer_{board.device_health[static_cast<std::size_t>(device)], role, to_string(device)} {}
+        writer_{writer_of(board, board.device_health[static_cast<std::size_t>(device)], role)} {}
 
   [[nodiscard]] DeviceHealthKeeper& keeper() noexcept { return keeper_; }
   // Once a step, after what the device brought was counted.

@@ -10,7 +10,7 @@ namespace lodesman {
 PathFinderTask::PathFinderTask(Blackboard& board, Role role)
     : requests_{board.path_request},
       obstacles_{board.sonar_obstacles},
-      paths_{board.sonar_path, role, "sonar_path"} {
+      paths_{writer_of(board, board.sonar_path, role)} {
   // What was asked before this task existed is nobody's question any more.
   if (const auto* old = requests_.latest(); old != nullptr) {
     answered_ = old->sequence;

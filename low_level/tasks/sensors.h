@@ -13,7 +13,7 @@ class AhrsTask final : public Task {
  public:
   AhrsTask(Blackboard& board, Role role, HeadingSensor& sensor)
       : sensor_{sensor},
-        attitudes_{board.attitude, role, "attitude"},
+        attitudes_{writer_of(board, board.attitude, role)},
         device_{board, role, DeviceId::kHeading, max_age::kAttitude} {}
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override { return device_.refused(); }
@@ -29,7 +29,7 @@ class PositionTask final : public Task {
   // Without a sensor there are no fixes, and that is said.
   PositionTask(Blackboard& board, Role role, PositionSensor* sensor)
       : sensor_{sensor},
-        fixes_{board.position_fix, role, "position_fix"},
+        fixes_{writer_of(board, board.position_fix, role)},
         device_{board, role, DeviceId::kPosition, max_age::kPositionFix} {}
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override { return device_.refused(); }

@@ -17,7 +17,7 @@ class ThrusterTask final : public Task {
   ThrusterTask(Blackboard& board, Role role, ThrusterPair* thrusters)
       : thrusters_{thrusters},
         helm_{board.helm_command},
-        applied_{board.thrust_applied, role, "thrust_applied"},
+        applied_{writer_of(board, board.thrust_applied, role)},
         device_{board, role, DeviceId::kThrusters, max_age::kThrustApplied} {}
 
   void step(Time now) noexcept override;

@@ -7,7 +7,9 @@
 #include <chrono>
 #include <cstdint>
 
+#include "mid_level/blackboard/bell.h"
 #include "mid_level/blackboard/channel.h"
+#include "mid_level/blackboard/wake_edges.h"
 #include "mid_level/messages/command.h"
 #include "mid_level/messages/health.h"
 #include "mid_level/messages/mission.h"
@@ -17,21 +19,6 @@
 #include "mid_level/messages/vehicle.h"
 
 namespace lodesman {
-
-// Every task of both processes, in lock-step order of precedence.
-enum class TaskId : std::uint8_t {
-  kWorld,
-  kAhrs,
-  kPosition,
-  kEstimator,
-  kDeltaT,
-  kPathFinder,
-  kPlanner,
-  kController,
-  kThruster,
-};
-inline constexpr std::size_t kTaskCount = 9;
-[[nodiscard]] const char* to_string(TaskId task) noexcept;
 
 // How old a value may be before its readers act as if its writer were dead.
 namespace max_age {
@@ -68,6 +55,11 @@ struct Blackboard {
   Channel<ThrustApplied, 64> thrust_applied;
   std::array<Channel<DeviceHealth, 4>, kDeviceCount> device_health;
   std::array<Channel<TaskHealth, 2>, kTaskCount> task_health;
+  std::array<Bell<>, kTaskCount> bells;  // no channel: rung by writers, waited for by their tasks
+
+  [[nodiscard]] Bell<>& bell_of(TaskId task) noexcept {
+    return bells[static_cast<std::size_t>(task)];
+  }
 };
 
 // What is worth knowing of a channel besides its type: one row a channel, for displays and docs.
@@ -132,6 +124,24 @@ void for_each_channel(Board& board, Visit visit) {
                       max_age::kNoLimit},
           board.task_health[i]);
   }
+}
+
+// The writer of one of the board's own channels, which rings those that the channel wakes. Throws
+// StartupError when the channel has a writer already.
+template <Wire T, std::size_t kDepth>
+[[nodiscard]] Writer<T> writer_of(Blackboard& board, Channel<T, kDepth>& channel, Role role) {
+  const char* name = nullptr;
+  for_each_channel(board, [&](const ChannelInfo& info, const auto& other) {
+    name = static_cast<const void*>(&other) == &channel ? info.name : name;
+  });
+  LODESMAN_CHECK(name != nullptr);
+  Writer<T> writer{channel, role, name};
+  for (std::size_t i = 0; i < kTaskCount; ++i) {
+    if (wakes(name, static_cast<TaskId>(i))) {
+      writer.rings(board.bells[i]);
+    }
+  }
+  return writer;
 }
 
 }  // namespace lodesman

@@ -19,6 +19,7 @@
 #include "mid_level/base/check.h"
 #include "mid_level/base/startup_error.h"
 #include "mid_level/base/time.h"
+#include "mid_level/blackboard/bell.h"
 #include "mid_level/messages/fields.h"
 #include "mid_level/messages/sane.h"
 
@@ -102,7 +103,11 @@ class Channel {
   }
 };
 
-// The one writer of a channel: made once, before the tasks run.
+// No publication wakes more tasks than this.
+inline constexpr std::size_t kMaxWoken = 2;
+
+// The one writer of a channel: made once, before the tasks run. It rings the bells it was given
+// after each publication; writer_of() in blackboard.h gives it those of its channel.
 template <Wire T, template <class> class Atomic = std::atomic>
 class Writer {
  public:
@@ -123,7 +128,9 @@ class Writer {
       : head_{std::exchange(other.head_, nullptr)},
         slots_{other.slots_},
         count_{other.count_},
-        sequence_{other.sequence_} {}
+        sequence_{other.sequence_},
+        bells_{other.bells_},
+        bell_count_{other.bell_count_} {}
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
   Writer& operator=(Writer&&) = delete;
@@ -133,7 +140,21 @@ class Writer {
     }
   }
 
+  // From now on it rings this bell too. The bell must outlive the writer.
+  void rings(Bell<Atomic>& bell) noexcept {
+    LODESMAN_CHECK(bell_count_ < kMaxWoken);
+    bells_[bell_count_++] = &bell;
+  }
+
   void publish(const T& value, Time now) noexcept {
+    publish_quietly(value, now);
+    for (std::size_t i = 0; i < bell_count_; ++i) {
+      ring(*bells_[i]);
+    }
+  }
+
+  // For what is no news: nobody is woken.
+  void publish_quietly(const T& value, Time now) noexcept {
     const std::uint64_t sequence = ++sequence_;
     ChannelSlot<T, Atomic>& slot = slots_[sequence % count_];
     const std::size_t bytes = used_bytes(value);
@@ -178,6 +199,8 @@ class Writer {
   ChannelSlot<T, Atomic>* slots_;
   std::size_t count_;
   std::uint64_t sequence_ = 0;
+  std::array<Bell<Atomic>*, kMaxWoken> bells_{};
+  std::size_t bell_count_ = 0;
 };
 
 // A reader with a copy of its own: what it hands out stays valid until its next call, and is sane.

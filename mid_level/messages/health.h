@@ -16,16 +16,21 @@ namespace lodesman {
 struct TaskHealth {
   static constexpr std::size_t kLateBuckets = 20;
 
-  std::uint64_t steps = 0;          // [-] done so far
-  std::uint64_t overruns = 0;       // [-] periods missed so far, and skipped
-  std::uint64_t refused = 0;        // [-] inputs passed over so far because they were not sane
-  std::uint64_t last_step_ns = 0;   // [ns] of the last step, measured
-  std::uint64_t worst_step_ns = 0;  // [ns] of the longest step, measured
-  std::uint64_t worst_late_ns = 0;  // [ns] from when a step was due to when it began, measured
-  std::uint64_t fifo_priority = 0;  // [-] SCHED_FIFO priority that its thread holds; 0: none
-  // Steps that began less than 2^i us after they were due, and not less than half of that; the last
-  // also counts what was later still.
-  std::array<std::uint64_t, kLateBuckets> late{};  // [-]
+  std::uint64_t steps = 0;               // [-] done so far
+  std::uint64_t overruns = 0;            // [-] periods missed so far, and skipped
+  std::uint64_t refused = 0;             // [-] inputs passed over so far because they were not sane
+  std::uint64_t last_step_ns = 0;        // [ns] of the last step, measured
+  std::uint64_t worst_step_ns = 0;       // [ns] of the longest step, measured
+  std::uint64_t worst_late_ns = 0;       // [ns] from when a step was due to when it began, measured
+  std::uint64_t fifo_priority = 0;       // [-] SCHED_FIFO priority that its thread holds; 0: none
+  std::uint64_t wakes = 0;               // [-] of the steps: rung for, not yet due by their period
+  std::uint64_t worst_wake_late_ns = 0;  // [ns] from the newest ring to when a woken step began
+  std::uint64_t over_budget = 0;         // [-] steps longer than the task table's budget
+  std::uint64_t past_deadline = 0;       // [-] steps that ended after the task table's deadline
+  // Steps of the period that began less than 2^i us after they were due, and not less than half of
+  // that; the last also counts what was later still.
+  std::array<std::uint64_t, kLateBuckets> late{};       // [-]
+  std::array<std::uint64_t, kLateBuckets> wake_late{};  // [-] woken ones, after the newest ring
 
   static constexpr auto fields() noexcept {
     using T = TaskHealth;
@@ -36,7 +41,12 @@ struct TaskHealth {
                       measured_field("worst_step_ns", &T::worst_step_ns),
                       measured_field("worst_late_ns", &T::worst_late_ns),
                       measured_field("fifo_priority", &T::fifo_priority),
-                      measured_field("late", &T::late)};
+                      measured_field("wakes", &T::wakes),
+                      measured_field("worst_wake_late_ns", &T::worst_wake_late_ns),
+                      measured_field("over_budget", &T::over_budget),
+                      measured_field("past_deadline", &T::past_deadline),
+                      measured_field("late", &T::late),
+                      measured_field("wake_late", &T::wake_late)};
   }
 };
 

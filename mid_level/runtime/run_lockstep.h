@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the same tasks in one thread on a simulated clock: the next due task, by due time and then
-// by task, as fast as the machine allows and always in the same order. One thread.
+// by task, as fast as the machine allows and always in the same order. A task that is rung for is
+// due a nominal time after the publication, and not within its least gap. One thread.
 #pragma once
 
 #include <cstdint>
-#include <random>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,8 +16,9 @@
 namespace lodesman {
 
 struct LockstepOptions {
-  // Each due time is late by a random share of this, so that the interleavings of threads can be
-  // explored, and replayed by their seed.
+  // Each due time and each wake is late by a random share of this, so that the interleavings of
+  // threads can be explored, and replayed by their seed. How late one is follows from the seed, its
+  // task and its number, whatever else happens in between.
   Duration max_jitter{};
   std::uint64_t seed = 0;
 };
@@ -32,17 +34,28 @@ class LockstepRunner {
  private:
   struct Entry {
     TaskEntry task;
-    Time nominal;  // without jitter
-    Time due;
     HealthKeeper health;
+    Bell<>* bell;
+    std::uint32_t seen;           // of the bell
+    Time nominal{};               // on the grid, without jitter
+    Time due{};                   // on the grid
+    std::optional<Time> woken{};  // when it is due because it was rung for
+    std::optional<Time> began{};  // its last step
+    std::uint64_t periods = 0;    // how many times it was due
+    std::uint64_t wakes = 0;      // how often it was rung for
+
+    [[nodiscard]] Time next() const noexcept { return woken ? std::min(*woken, due) : due; }
   };
-  [[nodiscard]] std::size_t next() const noexcept;  // index of the entry due next
-  [[nodiscard]] Time with_jitter(Time nominal) noexcept;
+  [[nodiscard]] Entry& next() noexcept;
+  void put_on_grid(Entry& entry) noexcept;
+  // What was published at `now` by the task with that row wakes whoever it rang for.
+  void answer_rings(const TaskSpec& publisher, Time now) noexcept;
+  [[nodiscard]] Duration jitter(const Entry& entry, std::uint64_t stream,
+                                std::uint64_t count) const noexcept;
 
   std::vector<Entry> entries_;  // by TaskId
   SimClock& clock_;
-  Duration max_jitter_;
-  std::mt19937_64 random_;
+  LockstepOptions options_;
 };
 
 }  // namespace lodesman

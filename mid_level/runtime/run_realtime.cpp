@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mid_level/runtime/run_realtime.h"
 
-#include <linux/futex.h>
 #include <pthread.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
-#include <climits>
-#include <ctime>
 #include <thread>
 #include <utility>
 
@@ -21,65 +14,83 @@
 namespace lodesman {
 namespace {
 
-// Rung once. Waiting for it is also how a thread sleeps until a time: no lock, no allocation.
-class Bell {
+// Said once, inside this process.
+class Signal {
  public:
-  void ring() noexcept {
-    rung_.store(1, std::memory_order_release);
-    syscall(SYS_futex, &rung_, FUTEX_WAKE_PRIVATE, INT_MAX, nullptr, nullptr, 0);
-  }
-  // True as soon as it has been rung; false at `deadline`.
-  [[nodiscard]] bool wait_until(Time deadline) noexcept {
-    const auto ns = deadline.time_since_epoch().count();
-    timespec at{};  // of CLOCK_MONOTONIC
-    at.tv_sec = ns / 1'000'000'000;
-    at.tv_nsec = ns % 1'000'000'000;
-    bool expired = false;
-    while (!has_rung() && !expired) {
-      expired = syscall(SYS_futex, &rung_, FUTEX_WAIT_BITSET_PRIVATE, 0, &at, nullptr,
-                        FUTEX_BITSET_MATCH_ANY) != 0 &&
-                errno == ETIMEDOUT;
-    }
-    return has_rung();
+  void say() noexcept { ring(bell_); }
+  [[nodiscard]] bool said() const noexcept { return look_at(bell_) != 0; }
+  // True as soon as it has been said; false at `deadline`.
+  [[nodiscard]] bool wait_until(Time deadline) const noexcept {
+    return wait_for_ring(bell_, 0, deadline);
   }
 
  private:
-  [[nodiscard]] bool has_rung() const noexcept {
-    return rung_.load(std::memory_order_acquire) != 0;
-  }
-
-  std::atomic<std::uint32_t> rung_{0};
+  Bell<> bell_;
 };
 
 }  // namespace
 
 struct RealtimeRunner::Worker {
   Worker(const TaskEntry& entry_in, Blackboard& board, Role role)
-      : entry{entry_in}, health{board, entry_in.spec.id, role} {}
+      : entry{entry_in},
+        health{board, entry_in.spec, role},
+        bell{board.bell_of(entry_in.spec.id)},
+        seen{look_at(bell)} {}
 
   void run() noexcept {
     pthread_setname_np(pthread_self(), to_string(entry.spec.id));
     health.holds_fifo_priority(hold_fifo_priority(entry.spec.fifo_priority));
-    Time due = next_due(entry.spec, clock.now());
-    while (!stop.wait_until(due)) {
-      const Time began = clock.now();
-      entry.task->step(began);
-      const Time ended = clock.now();
-      const Time next = next_due(entry.spec, ended);
-      const auto missed = (next - due) / entry.spec.period - 1;  // 0 when it kept its period
-      health.stepped({began, began - due, ended - began, static_cast<std::uint64_t>(missed),
-                      entry.task->refused()});
-      due = next;
+    due = next_due(entry.spec, clock.now());
+    while (wait_for_work()) {
+      step();
     }
     entry.task->enter_safe_state(clock.now());
-    safe.ring();
+    safe.say();
+  }
+
+  // Told by another thread.
+  void end() noexcept {
+    stop.say();
+    ring(bell);
+  }
+
+  // Until it is due or rung for, and its last step is long enough past; false: to be ended. The
+  // bell is looked at before all it may have been rung for: what comes later rings again.
+  [[nodiscard]] bool wait_for_work() noexcept {
+    if (wait_for_ring(bell, seen, due)) {
+      (void)stop.wait_until(std::min(began + entry.spec.least_gap, due));
+    }
+    seen = look_at(bell);
+    return !stop.said();
+  }
+
+  void step() noexcept {
+    began = clock.now();
+    const Duration rung_ago = since_ring(bell, began);
+    entry.task->step(began);
+    const Time ended = clock.now();
+    StepTimes times{began, began - due, ended - began, 0, entry.task->refused()};
+    if (began < due) {
+      times.cause = StepCause::kRing;
+      times.late = rung_ago;
+    } else {
+      const Time next = next_due(entry.spec, ended);
+      // 0 when it kept its period
+      times.missed_periods = static_cast<std::uint64_t>((next - due) / entry.spec.period - 1);
+      due = next;
+    }
+    health.stepped(times);
   }
 
   TaskEntry entry;
   SteadyClock clock;
   HealthKeeper health;
-  Bell stop;
-  Bell safe;  // rung by the thread as it ends
+  Bell<>& bell;
+  std::uint32_t seen;  // of the bell, when the last step began
+  Time due{};          // by its period
+  Time began{};        // the last step
+  Signal stop;
+  Signal safe;  // said by the thread as it ends
   std::thread thread;
 };
 
@@ -99,7 +110,7 @@ RealtimeRunner::RealtimeRunner(std::span<const TaskEntry> entries, Blackboard& b
 
 RealtimeRunner::~RealtimeRunner() {
   for (auto& worker : workers_) {
-    worker->stop.ring();
+    worker->end();
   }
   if (const std::vector<TaskId> hung = wait_for_end(); !hung.empty()) {
     on_hang_(hung);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs tasks in real time: one thread a task, absolute deadlines, SCHED_FIFO where it is granted.
+// Runs tasks in real time: one thread a task, which waits for its bell or for its next time on the
+// grid, whichever is first; absolute deadlines, SCHED_FIFO where it is granted.
 // Made and stopped by a main file.
 #pragma once
 
@@ -30,7 +31,8 @@ using OnHang = std::function<void(std::span<const TaskId>)>;
 class RealtimeRunner {
  public:
   // Starts the threads. A task that overruns skips the periods it missed, keeps its phase, and has
-  // them counted in its health.
+  // them counted in its health. A ring moves no phase, and none comes to a step within the task's
+  // least gap.
   RealtimeRunner(std::span<const TaskEntry> entries, Blackboard& board, Role role, OnHang on_hang);
   RealtimeRunner(const RealtimeRunner&) = delete;
   RealtimeRunner& operator=(const RealtimeRunner&) = delete;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A task: a piece of work done once a period. The runner owns time and threads; step() is called
-// by one thread at a time and neither sleeps, blocks, asks for the time nor starts a thread.
+// A task: a piece of work done once a period, and as soon as something is published that it waits
+// for. A step that finds nothing new changes nothing: a task may be woken for nothing. The runner
+// owns time and threads; step() is called by one thread at a time and neither sleeps, blocks, asks
+// for the time nor starts a thread.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 
@@ -33,6 +36,16 @@ struct TaskSpec {
   Duration period{};
   Duration phase{};       // offset of its first due time
   int fifo_priority = 0;  // SCHED_FIFO priority where allowed; 0: best effort
+  // What is counted as too long: a step, and from when it was due or rung for to its end. Zero: no
+  // limit.
+  Duration budget{};
+  Duration deadline{};
+  // Woken, it begins at the earliest so long after its last beginning, so that rings without end
+  // starve nobody. Above zero.
+  Duration least_gap = std::chrono::milliseconds{1};
+  // In lock-step, what it publishes wakes others so long after. A constant above zero, set once
+  // from measurements (ADR 0010).
+  Duration nominal = std::chrono::microseconds{50};
 };
 
 // What several readers passed over.

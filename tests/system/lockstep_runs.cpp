@@ -69,6 +69,21 @@ TEST_CASE("lock-step: the same scenario gives the same recording, another seed's
   CHECK(jittered(1) != first.result.recording_hash);
 }
 
+// Virtual time: what the nominal times of the chain come to, and no period in between.
+TEST_CASE("lock-step: a ping is thrust within a few milliseconds", "[system]") {
+  for (const char* profile : {"default", "paper"}) {
+    INFO(profile);
+    const RunResult result = sail("paper-static", profile).result;
+    REQUIRE(result.plans > 30);
+    CHECK(result.ping_to_command_us.p99 > 0.0);
+    CHECK(result.ping_to_command_us.p99 <= 5'000.0);
+    // With each of seven steps late by a random part of 2 ms it is still no period of any of them.
+    const RunResult late =
+        sail("paper-static", profile, {"simulation.lockstep_jitter_s = 0.002"}).result;
+    CHECK(late.ping_to_command_us.p50 <= 20'000.0);
+  }
+}
+
 TEST_CASE("lock-step: the smallest inoffensive distances are those of eq. 12 (Fig. 7a)",
           "[system]") {
   // With C = 1.3 and r_pro = 3.5, eqs 10-12 give 3.44 - r_obs - 0.5.

@@ -83,19 +83,49 @@ constexpr const char* kPlain = "\x1b[0m";
   const auto count = [&](std::uint64_t TaskHealth::*member) {
     return row.health ? Json((*row.health).*member) : Json(nullptr);
   };
-  return {{"name", row.name},
-          {"process", program_of(row.process)},
-          {"period_s", row.period_s},
-          {"steps", count(&TaskHealth::steps)},
-          {"overruns", count(&TaskHealth::overruns)},
-          {"refused", count(&TaskHealth::refused)},
-          {"last_step_ns", count(&TaskHealth::last_step_ns)},
-          {"worst_step_ns", count(&TaskHealth::worst_step_ns)},
-          {"worst_late_ns", count(&TaskHealth::worst_late_ns)},
-          {"late_p99_us", row.health ? Json(usual_late_us(*row.health)) : Json(nullptr)},
-          {"fifo_priority", count(&TaskHealth::fifo_priority)},
-          {"age_s", number_or_null(row.age_s)},
-          {"silent", row.silent}};
+  return {
+      {"name", row.name},
+      {"process", program_of(row.process)},
+      {"period_s", row.period_s},
+      {"steps", count(&TaskHealth::steps)},
+      {"overruns", count(&TaskHealth::overruns)},
+      {"refused", count(&TaskHealth::refused)},
+      {"last_step_ns", count(&TaskHealth::last_step_ns)},
+      {"worst_step_ns", count(&TaskHealth::worst_step_ns)},
+      {"worst_late_ns", count(&TaskHealth::worst_late_ns)},
+      {"late_p99_us", row.health ? Json(usual_late_us(*row.health)) : Json(nullptr)},
+      {"wakes", count(&TaskHealth::wakes)},
+      {"worst_wake_late_ns", count(&TaskHealth::worst_wake_late_ns)},
+      {"wake_late_p99_us",
+       row.health ? Json(to_seconds(wake_late_at_most(*row.health, 0.99)) * 1e6) : Json(nullptr)},
+      {"over_budget", count(&TaskHealth::over_budget)},
+      {"past_deadline", count(&TaskHealth::past_deadline)},
+      {"fifo_priority", count(&TaskHealth::fifo_priority)},
+      {"age_s", number_or_null(row.age_s)},
+      {"silent", row.silent}};
+}
+
+[[nodiscard]] Json json_of(const PingToThrust& chain) {
+  Json steps = Json::array();
+  for (std::size_t i = 0; i < kChainSteps; ++i) {
+    steps.push_back({{"name", to_string(static_cast<ChainStep>(i))},
+                     {"after_s", number_or_null(chain.after_s[i])}});
+  }
+  return {{"frame", chain.frame}, {"plan", chain.plan}, {"steps", std::move(steps)}};
+}
+
+// From capture to thrust, in the milliseconds after which each step was published.
+void add_chain(std::vector<std::string>& lines, const PingToThrust& chain) {
+  std::string head = fmt::format("  {:<9}", "ping to");
+  std::string times = fmt::format("  {:<9}", "after ms");
+  for (std::size_t i = 0; i < kChainSteps; ++i) {
+    const auto& after_s = chain.after_s[i];
+    head += fmt::format(" {:>{}}", to_string(static_cast<ChainStep>(i)), i == 1 ? 9 : 7);
+    times += fmt::format(" {:>{}}", after_s ? fmt::format("{:.1f}", *after_s * 1e3) : "-",
+                         i == 1 ? 9 : 7);
+  }
+  lines.push_back(head);
+  lines.push_back(times);
 }
 
 // A line of its own where anything was: that is never as it should be.
@@ -128,6 +158,9 @@ std::vector<std::string> table_lines(const SegmentState& state, bool colour) {
     lines.push_back(marked(line_of(row), row.silent, colour));
     add_refused(lines, row.name, row.health ? row.health->refused : 0, "inputs", colour);
   }
+  if (state.board.chain) {
+    add_chain(lines, *state.board.chain);
+  }
   return lines;
 }
 
@@ -144,7 +177,8 @@ Json to_json(const SegmentState& state) {
           {"low_alive", state.low_alive},
           {"high_alive", state.high_alive},
           {"channels", std::move(channels)},
-          {"tasks", std::move(tasks)}};
+          {"tasks", std::move(tasks)},
+          {"ping_to_thrust", state.board.chain ? json_of(*state.board.chain) : Json(nullptr)}};
 }
 
 }  // namespace lodesman::cli

@@ -8,7 +8,7 @@
 
 namespace lodesman::cli {
 
-BoardWatch::BoardWatch(const Blackboard& board) {
+BoardWatch::BoardWatch(const Blackboard& board) : chain_{board} {
   for_each_channel(board, [&]<class C>(const ChannelInfo& info, const C& channel) {
     using Value = typename C::Value;
     if constexpr (std::is_same_v<Value, TaskHealth>) {
@@ -39,6 +39,7 @@ BoardWatch::BoardWatch(const Blackboard& board) {
 
 void BoardWatch::poll(Time now) {
   now_ = now;
+  chain_.poll();
   for (ChannelSeen& seen : channels_) {
     seen.drain(seen);
     seen.looks.push_back({now, seen.sequence});
@@ -61,6 +62,7 @@ BoardState BoardWatch::state() const {
   for (std::size_t i = 0; i < tasks_.size(); ++i) {
     state.tasks.push_back(row_of(tasks_[i], i));
   }
+  state.chain = chain_.newest();
   return state;
 }
 

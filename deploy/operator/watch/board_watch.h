@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "deploy/operator/watch/chain_watch.h"
 #include "mid_level/blackboard/blackboard.h"
 
 namespace lodesman::cli {
@@ -40,6 +41,7 @@ struct TaskRow {
 struct BoardState {
   std::vector<ChannelRow> channels;
   std::vector<TaskRow> tasks;
+  std::optional<PingToThrust> chain;  // nothing where no plan was followed yet
 };
 
 class BoardWatch {
@@ -82,6 +84,7 @@ class BoardWatch {
 
   std::vector<ChannelSeen> channels_;
   std::vector<TaskSeen> tasks_;
+  ChainWatch chain_;
   Time now_{};
 };
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The channel's protocol, its own code, in every way in which C++ lets its loads and stores meet:
-// any schedule, any store that a load may read, any store at which the writer is killed. And each
-// acquire and release taken away, one at a time: each must be missed by something that is promised.
+// The protocols of channel and bell, their own code, in every way in which C++ lets its loads and
+// stores meet: any schedule, any store that a load may read, any store at which the writer is
+// killed. And each acquire and release taken away, one at a time: each must be missed by something
+// that is promised.
 #include <algorithm>
 #include <functional>
 #include <set>
 #include <vector>
 
 #include "tests/support/catch.h"
-#include "tests/unit/blackboard/channel_stories.h"
+#include "tests/unit/blackboard/bell_stories.h"
 
 namespace lodesman::weak {
 namespace {
@@ -31,6 +32,7 @@ const std::vector<Story> kStories{
     {"forged, latest", [](Memory& m) { return forged(m, By::kLatest); }},
     {"forged, by number", [](Memory& m) { return forged(m, By::kNumber); }},
     {"answered", answered},
+    {"rung", [](Memory& m) { return rung(m); }},
 };
 
 // What each acquire and each release of channel.h is for: what goes wrong without it.
@@ -53,6 +55,8 @@ const std::vector<Needed> kNeeded{
     {{Place::kClaim, Access::kStore, Half::kRelease}, "a successor begins after the last number"},
     {{Place::kClaim, Access::kExchange, Half::kAcquire}, "its other side"},
     {{Place::kClaim, Access::kExchange, Half::kRelease}, "the same for who frees a dead one's"},
+    {{Place::kBell, Access::kExchange, Half::kRelease}, "a ring says: there is something new"},
+    {{Place::kBell, Access::kLoad, Half::kAcquire}, "its other side, before channels are read"},
 };
 
 }  // namespace
@@ -101,6 +105,17 @@ TEST_CASE("memory order: protocols that are wrong on purpose are found out",
   CHECK(wrong_with(Wrong::kSaidWholeTooEarly) > 0);
   Memory memory;
   CHECK(kept(memory, Wrong::kAnnouncedFirst).lost > 0);
+}
+
+TEST_CASE("memory order: nobody sleeps over what was rung for, unless a bell is used wrongly",
+          "[mid_level][blackboard]") {
+  const auto lost_with = [](Misuse misuse) {
+    Memory memory;
+    return rung(memory, misuse).lost;
+  };
+  CHECK(lost_with(Misuse::kNothing) == 0);
+  CHECK(lost_with(Misuse::kLookedAtLast) > 0);
+  CHECK(lost_with(Misuse::kRungFirst) > 0);
 }
 
 }  // namespace lodesman::weak

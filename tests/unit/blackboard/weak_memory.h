@@ -26,7 +26,7 @@
 namespace lodesman::weak {
 
 // What an atomic is to the channel.
-enum class Place : std::uint8_t { kNewest, kClaim, kVersion, kStamp, kBytes, kWord, kOther };
+enum class Place : std::uint8_t { kNewest, kClaim, kVersion, kStamp, kBytes, kWord, kBell, kOther };
 enum class Access : std::uint8_t { kLoad, kStore, kExchange };
 enum class Half : std::uint8_t { kAcquire, kRelease };
 
@@ -165,6 +165,12 @@ class Memory {
     return found;
   }
 
+  // Adds to the newest store, and returns what it found there.
+  std::uint64_t add_to(std::size_t at, std::uint64_t amount, std::memory_order order) {
+    const std::uint64_t found = history_[at].back().value;
+    return exchange(at, found, found + amount, order);
+  }
+
   // Every acquire and release that was asked for, weakened or not.
   [[nodiscard]] std::vector<Site> sites() const {
     std::vector<Site> sites;
@@ -187,7 +193,7 @@ class Memory {
     View view;
   };
 
-  static constexpr std::size_t kSites = 7 * 3 * 2;
+  static constexpr std::size_t kSites = 8 * 3 * 2;
   [[nodiscard]] static std::size_t index_of(const Site& site) noexcept {
     return (static_cast<std::size_t>(site.place) * 3 + static_cast<std::size_t>(site.access)) * 2 +
            static_cast<std::size_t>(site.half);
@@ -257,6 +263,9 @@ class Atomic {
     const bool same = found == expected;
     expected = found;
     return same;
+  }
+  T fetch_add(T amount, std::memory_order order) noexcept {
+    return static_cast<T>(Memory::current->add_to(at_, static_cast<std::uint64_t>(amount), order));
   }
   void is(Place place) const noexcept { Memory::current->name(at_, place); }
   [[nodiscard]] std::size_t at() const noexcept { return at_; }

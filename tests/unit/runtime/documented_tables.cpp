@@ -30,6 +30,27 @@ std::int64_t in_ms(Duration duration) {
   return std::chrono::duration_cast<std::chrono::milliseconds>(duration).count();
 }
 
+std::int64_t in_us(Duration duration) {
+  return std::chrono::duration_cast<std::chrono::microseconds>(duration).count();
+}
+
+// The channels, or devices, whose publications wake a task.
+std::string woken_by(TaskId task) {
+  std::string names;
+  const auto add = [&](std::string_view name) {
+    names += (names.empty() ? "" : ", ") + std::string{name};
+  };
+  for (const WakeEdge& edge : kWakeEdges) {
+    if (edge.wakes == task) {
+      add(edge.channel);
+    }
+  }
+  if (task == kOrdersWake) {
+    add(kOrders);
+  }
+  return names.empty() ? "-" : names;
+}
+
 }  // namespace
 
 TEST_CASE("docs: the table of tasks is the program's own", "[docs]") {
@@ -37,10 +58,14 @@ TEST_CASE("docs: the table of tasks is the program's own", "[docs]") {
   for (const TaskSpec& spec : kTaskTable) {
     std::ostringstream row;
     row << "| " << to_string(spec.id) << " | " << in_ms(spec.period) << " | " << in_ms(spec.phase)
-        << " | " << spec.fifo_priority << " |";
+        << " | " << spec.fifo_priority << " | " << woken_by(spec.id) << " | "
+        << in_us(spec.least_gap) << " | " << in_ms(spec.budget) << " | " << in_ms(spec.deadline)
+        << " | " << in_us(spec.nominal) << " |";
     rows.push_back(row.str());
   }
-  CHECK(documented_rows("| task | period ms | phase ms | priority |") == rows);
+  CHECK(
+      documented_rows("| task | period ms | phase ms | priority | woken by | gap us | budget ms | "
+                      "deadline ms | nominal us |") == rows);
 }
 
 TEST_CASE("docs: the table of channels is the program's own", "[docs]") {

@@ -66,7 +66,7 @@ TEST_CASE("health: steps, the latest of them and missed periods are published on
           "[mid_level][runtime]") {
   const auto board = std::make_unique<Blackboard>();
   Reader<TaskHealth> reader{board->task_health[kAhrs]};
-  HealthKeeper keeper{*board, TaskId::kAhrs, Role::kLow};
+  HealthKeeper keeper{*board, TaskSpec{TaskId::kAhrs}, Role::kLow};
   keeper.holds_fifo_priority(60);
   for (int i = 0; i <= 150; ++i) {
     const bool slow = i == 7;

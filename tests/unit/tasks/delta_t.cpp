@@ -88,5 +88,28 @@ TEST_CASE("delta_t task: a known scene is drawn at a fresh estimate or not at al
   CHECK(delta_t.frames_after_step(kStart + max_age::kVehicleState + Duration{1}) == 0);
 }
 
+TEST_CASE("delta_t task: a ping waits a moment for the estimate of its own time",
+          "[low_level][tasks]") {
+  for (const auto& options : {shipped_options(), with_known_scene()}) {
+    DeltaT delta_t{options};
+    delta_t.estimate(kStart - milliseconds{20});
+    CHECK(delta_t.frames_after_step(kStart) == 0);
+    CHECK(all_of(delta_t.pings).size() == 1);
+    delta_t.sonar.status = ReadStatus::kNothingNew;
+    CHECK(delta_t.frames_after_step(kStart + Duration{1}) == 0);
+    delta_t.estimate(kStart + Duration{2});
+    CHECK(delta_t.frames_after_step(kStart + Duration{3}) == 1);
+    CHECK(all_of(delta_t.tracks).size() == 1);
+    CHECK(delta_t.frames_after_step(kStart + milliseconds{20}) == 0);
+    CHECK(all_of(delta_t.pings).empty());
+
+    // Where it does not come, the last one has to do.
+    delta_t.sonar.status = ReadStatus::kFresh;
+    CHECK(delta_t.frames_after_step(kStart + milliseconds{100}) == 0);
+    delta_t.sonar.status = ReadStatus::kNothingNew;
+    CHECK(delta_t.frames_after_step(kStart + milliseconds{120}) == 1);
+  }
+}
+
 }  // namespace
 }  // namespace lodesman::testing

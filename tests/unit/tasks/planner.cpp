@@ -62,6 +62,40 @@ struct Planner {
   Reader<Plan> plans{board->plan};
 };
 
+TEST_CASE("planner task: only another state of the mission rings for the controller",
+          "[high_level][tasks]") {
+  Planner planner;
+  const auto rings_of_step = [&](Time now) {
+    const Bell<>& bell = planner.board->bell_of(TaskId::kController);
+    const std::uint32_t before = look_at(bell);
+    (void)planner.after_step(now);
+    return look_at(bell) - before;
+  };
+  planner.estimate(0.0, kStart);
+  CHECK(rings_of_step(kStart) == 0);
+  planner.order(OperatorOrder::kStart, kStart);
+  CHECK(rings_of_step(kStart) == 1);
+  CHECK(rings_of_step(kStart + milliseconds{50}) == 0);
+  planner.order(OperatorOrder::kAbort, kStart + milliseconds{60});
+  CHECK(rings_of_step(kStart + milliseconds{60}) == 1);
+  CHECK(rings_of_step(kStart + milliseconds{70}) == 0);
+}
+
+TEST_CASE("planner task: woken for nothing it asks nothing and plans nothing",
+          "[high_level][tasks]") {
+  Planner planner;
+  planner.order(OperatorOrder::kStart, kStart);
+  planner.estimate(0.0, kStart);
+  planner.see(1, kStart);
+  CHECK(planner.after_step(kStart) == MissionState::kUnderWay);
+  CHECK(all_of(planner.requests).size() == 1);
+  for (int i = 1; i <= 20; ++i) {
+    (void)planner.after_step(kStart + i * milliseconds{1});
+  }
+  CHECK(all_of(planner.requests).empty());
+  CHECK(all_of(planner.plans).empty());
+}
+
 TEST_CASE("planner task: after a long absence it holds where it is and waits to be told",
           "[high_level][tasks]") {
   Planner planner;

@@ -77,6 +77,68 @@ TEST_CASE("watch: only what was overwritten unseen since it began is missed", "[
   REQUIRE(channel(watch, "attitude").missed == 6);  // of 70 the ring keeps 64
 }
 
+TEST_CASE("watch: the newest plan that thrust followed is followed back to its ping", "[cli]") {
+  Boat boat;
+  BoardWatch watch{*boat.board};
+  watch.poll(kStart);
+  CHECK_FALSE(watch.state().chain.has_value());
+  Writer<SonarPing> pings{boat.board->sonar_ping, Role::kLow, "sonar_ping"};
+  Writer<PathRequest> requests{boat.board->path_request, Role::kHigh, "path_request"};
+  Writer<Plan> plans{boat.board->plan, Role::kHigh, "plan"};
+  Writer<HelmCommand> helms{boat.board->helm_command, Role::kHigh, "helm_command"};
+  Writer<ThrustApplied> applied{boat.board->thrust_applied, Role::kLow, "thrust_applied"};
+  const auto at = [](int ms) { return kStart + milliseconds{ms}; };
+  const auto ping = std::make_unique<SonarPing>();
+  ping->range_m = 30.0;
+  ping->sector_rad = 2.0;
+  ping->beams = ping->bins = 2;
+  ping->echo_count = 4;
+  ping->number = 7;
+  pings.publish(*ping, at(1));
+  ping->number = 8;
+  pings.publish(*ping, at(101));
+  const auto request = std::make_unique<PathRequest>();
+  request->id = 3;
+  requests.publish(*request, at(2));
+  Plan plan;
+  plan.id = 3;
+  plan.frame = 7;
+  plans.publish(plan, at(4));
+  helms.publish({}, at(5));
+  ThrustApplied thrust;
+  thrust.plan_id = 3;
+  thrust.plan_captured = kStart;
+  thrust.command_sequence = helms.sequence();
+  applied.publish(thrust, at(6));  // not commanded
+  watch.poll(at(7));
+  CHECK_FALSE(watch.state().chain.has_value());
+  thrust.reason = ThrustReason::kCommanded;
+  applied.publish(thrust, at(8));
+  watch.poll(at(9));
+  applied.publish(thrust, at(50));  // the same plan still
+  watch.poll(at(51));
+  const auto chain = watch.state().chain;
+  REQUIRE(chain.has_value());
+  CHECK(chain->frame == 7);
+  CHECK(chain->plan == 3);
+  const auto after = [&](ChainStep step) { return chain->after_s[static_cast<std::size_t>(step)]; };
+  CHECK(after(ChainStep::kPing).value() == Approx(0.001));
+  CHECK(after(ChainStep::kRequest).value() == Approx(0.002));
+  CHECK(after(ChainStep::kPlan).value() == Approx(0.004));
+  CHECK(after(ChainStep::kHelm).value() == Approx(0.005));
+  CHECK(after(ChainStep::kApplied).value() == Approx(0.008));
+  CHECK_FALSE(after(ChainStep::kTracks).has_value());
+  const SegmentState state{"lodesman-x", true, true, watch.state()};
+  const auto json = to_json(state)["ping_to_thrust"];
+  CHECK(json["plan"] == 3);
+  CHECK(json["steps"].size() == kChainSteps);
+  CHECK(json["steps"][0]["name"] == "ping");
+  CHECK(json["steps"][2]["after_s"].is_null());
+  for (const std::string& line : table_lines(state, false)) {
+    CHECK(line.size() <= 80);
+  }
+}
+
 TEST_CASE("watch: stale is what has a limit and is past it, or never was", "[cli]") {
   Boat boat;
   BoardWatch watch{*boat.board};

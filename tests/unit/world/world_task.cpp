@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hal_sim/world/world_task.h"
 
+#include <array>
 #include <memory>
+#include <set>
 
 #include "hal_sim/devices/sim_thruster_pair.h"
 #include "tests/support/catch.h"
@@ -61,6 +63,30 @@ TEST_CASE("world task: before the mission the boat lies at its start and no time
   CHECK(truth->value.scenario_time_s == Approx(0.0).margin(0.0));
   CHECK(truth->value.x_m == Approx(0.0).margin(0.0));
   CHECK(bench.samples.latest()->value.started == 0);
+}
+
+TEST_CASE("world task: it rings for those tasks whose device has a sample to be polled",
+          "[hal_sim][world]") {
+  Bench bench;
+  const auto rings_of_step = [&] {
+    std::array<std::uint32_t, kTaskCount> before{};
+    for (std::size_t i = 0; i < kTaskCount; ++i) {
+      before[i] = look_at(bench.board->bells[i]);
+    }
+    bench.run_for(milliseconds{20});
+    std::set<TaskId> rung;
+    for (std::size_t i = 0; i < kTaskCount; ++i) {
+      if (look_at(bench.board->bells[i]) != before[i]) {
+        rung.insert(static_cast<TaskId>(i));
+      }
+    }
+    return rung;
+  };
+  CHECK(rings_of_step() == std::set{TaskId::kAhrs, TaskId::kPosition, TaskId::kDeltaT});
+  bench.link->position_due.next_at(bench.now + std::chrono::seconds{1});
+  bench.link->sonar_due.next_at(bench.now + milliseconds{40});
+  CHECK(rings_of_step() == std::set{TaskId::kAhrs});
+  CHECK(rings_of_step() == std::set{TaskId::kAhrs, TaskId::kDeltaT});
 }
 
 TEST_CASE("world task: scenario time counts from the mission's start", "[hal_sim][world]") {
