@@ -89,6 +89,7 @@ OperatorDesk::OperatorDesk(Blackboard& board, Role role, DeskOptions options, No
     : options_{std::move(options)},
       frame_{options_.origin},
       now_{std::move(now)},
+      made_{now_()},
       readiness_{board},
       definitions_{writer_of(board, board.mission_definition, role)},
       orders_{writer_of(board, board.operator_command, role)},
@@ -163,9 +164,14 @@ std::string OperatorDesk::objections(const MissionDefinition& mission) {
   return text;
 }
 
+const Stamped<MissionStatus>* OperatorDesk::fresh_mission(Time now) {
+  const auto* mission = mission_.fresh(now, max_age::kMissionStatus);
+  return mission != nullptr && mission->stamp >= made_ ? mission : nullptr;
+}
+
 void OperatorDesk::look() {
   const Time now = now_();
-  const auto* mission = mission_.fresh(now, max_age::kMissionStatus);
+  const auto* mission = fresh_mission(now);
   const MissionDefinition* definition = at_hand();
   if (!options_.starts_by_itself || mission == nullptr || definition == nullptr) {
     return;
@@ -327,7 +333,7 @@ std::optional<std::string> OperatorDesk::reply_to(Order& order) {
   if (now - order.given > kOrderPatience) {
     return not_confirmed("the mission does not answer");
   }
-  const auto* mission = mission_.fresh(now, max_age::kMissionStatus);
+  const auto* mission = fresh_mission(now);
   if (order.sequence != 0 || mission == nullptr) {
     return std::nullopt;
   }

@@ -80,11 +80,14 @@ class OperatorDesk {
   void publish(Order& order);
   void publish_link();
   void look_at_mission();
+  // The mission's newest word, where it is fresh and not that of a program that was here before.
+  [[nodiscard]] const Stamped<MissionStatus>* fresh_mission(Time now);
   [[nodiscard]] bool abort_is_on_its_way() const noexcept { return obeyed_aborts_ < aborts_; }
 
   DeskOptions options_;
   LocalFrame frame_;
   Now now_;
+  Time made_;
   Commander commander_;
   Readiness readiness_;
   Writer<MissionDefinition> definitions_;

@@ -63,6 +63,8 @@ PlannerTask::PlannerTask(Blackboard& board, Role role, PlannerOptions options)
 }
 
 void PlannerTask::step(Time now) noexcept {
+  frame_is_new_ = obstacles_.newest_sequence() != frame_sequence_;
+  frame_sequence_ = obstacles_.newest_sequence();
   const auto* state = vehicle_state_.fresh(now, max_age::kVehicleState);
   if (state != nullptr) {
     poses_.add(state->value);
@@ -162,8 +164,9 @@ void PlannerTask::replan_in_view(Time now) noexcept {
   if (const auto* path = sonar_path_.latest(); path != nullptr) {
     publish(replanner_.answer(now, path->value), now);
   }
+  // One that has just come: what is planned in an older one is that much later on its way.
   const auto* frame = obstacles_.fresh(now, max_age::kSonarFrame);
-  if (frame == nullptr) {
+  if (frame == nullptr || !frame_is_new_) {
     return;
   }
   const auto* request =

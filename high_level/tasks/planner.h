@@ -57,7 +57,9 @@ class PlannerTask final : public Task {
   NoWayCause no_way_ = NoWayCause::kNone;
   WorldPoint position_;  // the last known
   Time stepped_{};
-  Time started_{};  // of the mission that the replanner was told of
+  std::uint64_t frame_sequence_ = 0;  // of the newest frame that there was at the last step
+  bool frame_is_new_ = false;         // at this step
+  Time started_{};                    // of the mission that the replanner was told of
   MissionState told_state_ = MissionState::kIdle;
   bool was_absent_ = false;     // under way, and its place is not known again yet
   std::uint64_t tuned_ = 0;     // Tunables::version taken on

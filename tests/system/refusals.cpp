@@ -334,16 +334,17 @@ TEST_CASE("refusals: a world that nothing is in, and a simulated device without 
   const std::string all_real =
       "[devices]\nheading = \"nav440:/dev/none\"\nsonar = \"delta_t:192.0.2.7\"\n"
       "position = \"none\"\nthrusters = \"maestro:/dev/none\"\n";
-  Bench bench;
-  bench.write("c.toml", all_real + "[simulation]\nscenario = \"paper-static\"\n");
-  check_refused(bench, bench.run(LODESMAN_LOW_PROGRAM, {"--config", "c.toml"}),
-                "^c.toml:7: simulation.scenario: no device is simulated");
-  bench.write("c.toml", all_real + "[simulation]\nvessel = \"estimate\"\n");
-  check_refused(bench, bench.run(LODESMAN_LOW_PROGRAM, {"--config", "c.toml"}),
-                "^c.toml:7: simulation.vessel: no device is simulated");
-  bench.write("c.toml", "[simulation]\nscenario = \"\"\n");
-  check_refused(bench, bench.run(LODESMAN_LOW_PROGRAM, {"--config", "c.toml"}),
-                "^c.toml:2: simulation.scenario: devices.heading is simulated: give the scenario");
+  const auto refuse = [](const std::string& configuration, const std::string& line) {
+    Bench bench;
+    bench.write("c.toml", configuration);
+    check_refused(bench, bench.run(LODESMAN_LOW_PROGRAM, {"--config", "c.toml"}), line);
+  };
+  refuse(all_real + "[simulation]\nscenario = \"paper-static\"\n",
+         "^c.toml:7: simulation.scenario: no device is simulated");
+  refuse(all_real + "[simulation]\nvessel = \"estimate\"\n",
+         "^c.toml:7: simulation.vessel: no device is simulated");
+  refuse("[simulation]\nscenario = \"\"\n",
+         "^c.toml:2: simulation.scenario: devices.heading is simulated: give the scenario");
 }
 
 TEST_CASE("refusals: lodesman-high refuses an unknown key before it looks for a segment",

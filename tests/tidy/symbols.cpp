@@ -27,8 +27,8 @@ const std::vector<SymbolRule>& symbol_rules() {
        R"(std::chrono::_V2::\w+::now\(\)|(clock_)?(gettime|nanosleep)|gettimeofday|u?sleep|time)"
        R"(|timerfd_\w+|syscall|p?poll|p?select|epoll_\w*wait)",
        {""},
-       {"mid_level/base/clock.cpp", "mid_level/runtime", "mid_level/blackboard/segment.cpp", kAsio,
-        kOperator}},
+       {"mid_level/base/clock.cpp", "mid_level/blackboard/bell.cpp",
+        "mid_level/blackboard/segment.cpp", kAsio, kOperator}},
       {"locks",
        R"(pthread_(mutex|rwlock|cond|spin|barrier|once)\w*|sem_\w+|__cxa_guard_acquire)"
        R"(|std::(condition_variable|__once|mutex|shared_mutex|recursive_mutex)\b.*)",

@@ -124,7 +124,8 @@ void RunWatcher::take_commands() {
     applied_ = thrust->value;
     if (applied_.reason == ThrustReason::kCommanded && applied_.plan_id > answered_plan_) {
       answered_plan_ = applied_.plan_id;
-      if (applied_.plan_captured != Time{}) {
+      // What was seen before the start has waited for it.
+      if (applied_.plan_captured >= status_.first_started && status_.first_started != Time{}) {
         ping_to_command_us_.add(to_seconds(thrust->stamp - applied_.plan_captured) * 1e6);
       }
     }

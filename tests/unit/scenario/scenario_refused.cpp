@@ -89,10 +89,10 @@ TEST_CASE("scenario: head, mission and vehicle are refused with one line", "[hal
       {"speed_m_s = 0.22", "speed_m_s = 0.22\nsurge_ref = 16",
        "s.toml:11: vehicle.surge_ref: give either speed_m_s or surge_ref"},
       {"speed_m_s = 0.22", "speed_m_s = 0.02",
-       "s.toml:10: vehicle.speed_m_s: no SurgeRef holds it within 3 % (the nearest, 2, gives "
-       "0.02544 m/s)"},
+       "s.toml:10: vehicle.speed_m_s: no SurgeRef holds it within 3 % (the nearest, 1, gives "
+       "0.01362 m/s)"},
       {"speed_m_s = 0.22", "speed_m_s = 2.0",
-       "s.toml:10: vehicle.speed_m_s: no SurgeRef holds it within 3 % (the nearest, 99, gives "
+       "s.toml:10: vehicle.speed_m_s: no SurgeRef holds it within 3 % (the nearest, 100, gives "
        "1.207 m/s)"},
       {"speed_m_s = 0.22", "speed_m_s = 0.0",
        "s.toml:10: vehicle.speed_m_s: must be greater than 0 and at most 10"},
