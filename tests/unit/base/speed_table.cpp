@@ -33,6 +33,10 @@ TEST_CASE("speed table: a speed is held by the nearest SurgeRef", "[base]") {
     CHECK(held.speed_m_s == Approx(table.speed_m_s(surge_ref)));
   }
   CHECK(table.held(0.0).surge_ref == 1);
+  CHECK(table.held_at_most(0.2).surge_ref == 10);
+  CHECK(table.held_at_most(0.1999).surge_ref == 9);
+  CHECK(table.held_at_most(0.0).surge_ref == 1);
+  CHECK(table.held_at_most(99.0).surge_ref == kMaxSurgeRef);
   CHECK(table.held(99.0).surge_ref == kMaxSurgeRef);
 }
 

@@ -13,7 +13,8 @@ constexpr GeoPoint kPond{35.0, 139.0};
 MissionDefaults defaults() { return {0.5, 0.42, LinkLost::kGoOn, from_seconds(5)}; }
 
 MissionDefinition read(const std::string& text) {
-  return read_mission_text(text, "m.toml", defaults(), LocalFrame{kPond});
+  const LocalFrame frame{kPond};
+  return read_mission_text(text, "m.toml", defaults(), &frame);
 }
 
 std::string refusal_of(const std::string& text) {
