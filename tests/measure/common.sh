@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash disable=SC2034
 # What the scripts of this directory share. To be sourced by bash, from any directory.
 # LODESMAN_BUILD: the build to measure.
 

@@ -71,6 +71,7 @@ sides() {
 heading
 printf '\nThe first experiment\n\n| | paper | here |\n|---|---|---|\n'
 paper paper-static
+at_26=0 leftmost=0 leftmost_at=0 changes=0 first=0 last=0 to=none lost=""
 eval "$(trajectory)"
 eval "$(sides)"
 direction() { awk "BEGIN { printf \"%.1f degrees %s\", $1 < 0 ? -($1) : $1, $1 < 0 ? \"left\" : \"right\" }"; }
