@@ -45,7 +45,7 @@ sides() {
         reason = $0; sub(/.*"reason":"/, "", reason); sub(/".*/, "", reason)
         if (captured > 34 && !(reason in seen)) {
           seen[reason] = 1
-          lost = lost (lost ? ", " : "") reason " from " sprintf("%.1f", captured) " s on"
+          lost = lost (lost ? ", " : "yes, ") reason " from " sprintf("%.1f", captured) " s on"
         }
         next
       }
@@ -80,7 +80,7 @@ cat <<TABLE
 | where | (about 0, 19.68) | ($(number 2 "$(element final_m 1)"), $(number 2 "$(element final_m 2)")), $(number 3 "$(value goal_error_m)") m from the goal |
 | new side | by 26-27 s, to the right | $changes changes, first by $first s, last by $last s, to the $to |
 | heading then | 27.3 degrees right at 26 s | $(direction "$at_26") at 26 s; at most $leftmost degrees left, at $leftmost_at s |
-| no path at 36 s | yes, start in the zone | ${lost:-none} |
+| no path at 36 s | yes, start in the zone | ${lost:-no} |
 | plans | - | $(value plans): $(value plans_found) found, $(not_found) |
 | smallest ID | 2.44 m by eq. 12 | $(id 3) m at $(id_at) s |
 TABLE
