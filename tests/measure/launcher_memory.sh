@@ -1,4 +1,4 @@
-#!/bin/sh
+#!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # What `lodesman sim` has in memory, and its run on disk, by the hour of the boat's own time: a boat
 # goes round a square in lock-step. Fails where the memory grows by more than 2 MiB an hour over the
@@ -6,9 +6,8 @@
 #   tests/measure/launcher_memory.sh [HOURS]
 # LODESMAN_BUILD: the build to measure.
 set -eu
+. "$(dirname "$0")/common.sh"
 hours=${1:-12}
-program=${LODESMAN_BUILD:-$(dirname "$0")/../../build/release}/bin/lodesman
-place=$(mktemp -d)
 run=
 trap '[ -z "$run" ] || kill "$run" 2>/dev/null || true; rm -rf "$place"' EXIT INT TERM
 
@@ -39,13 +38,14 @@ radius_m = 1.0
 protection_m = 2.0
 END
 
-"$program" sim "$place/round.toml" --lockstep --no-images --quiet --out "$place/run" &
+"$bin/lodesman" sim "$place/round.toml" --lockstep --no-images --quiet --out "$place/run" &
 run=$!
 # Of the last whole row.
 virtual_s() {
   tail -c 400 "$place/run/trajectory.csv" 2>/dev/null | tail -n 2 | head -n 1 |
     sed -n 's/^\([0-9]*\)\.[0-9]*,.*/\1/p'
 }
+heading
 printf '%8s %12s %12s\n' 'hours' 'memory KiB' 'disk KiB'
 next_s=1
 while memory=$(sed -n 's/^VmRSS:[^0-9]*\([0-9]*\) kB/\1/p' "/proc/$run/status" 2>/dev/null) &&

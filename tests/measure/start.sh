@@ -5,10 +5,8 @@
 #   tests/measure/start.sh [TIMES]
 # LODESMAN_BUILD: the build to measure.
 set -eu
+. "$(dirname "$0")/common.sh"
 times=${1:-50}
-bin=${LODESMAN_BUILD:-$(dirname "$0")/../../build/release}/bin
-place=$(mktemp -d)
-trap 'rm -rf "$place"' EXIT
 
 # ms_of <command...>: median and worst. How it ends is not looked at: no boat may be there.
 ms_of() {
@@ -21,7 +19,7 @@ ms_of() {
     END { printf "%10.1f %10.1f", us[int((NR + 1) / 2)] / 1000, us[NR] / 1000 }'
 }
 
-failed=0
+heading
 printf '%-44s %10s %10s %10s\n' command 'median ms' 'worst ms' libraries
 while read -r program arguments; do
   libraries=$(ldd "$bin/$program" | grep -c '=>')
