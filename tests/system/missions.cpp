@@ -123,7 +123,7 @@ TEST_CASE("missions: what cannot be is refused, and what is sailed goes on", "[s
   CHECK(boat.tell({"tune", "zones.least_margin_m=0"}) == 1);
   CHECK(boat.mission().mission == mission);
   CHECK(boat.mission().state == MissionState::kUnderWay);
-  CHECK(boat.tell({"tune", "mission.speed_limit_m_s=0.22"}) == 0);
+  CHECK(boat.tell({"tune", "mission.speed_limit_m_s=0.222"}) == 0);
   REQUIRE(eventually([&] { return boat.mission().surge_ref == 16; }));
 }
 
