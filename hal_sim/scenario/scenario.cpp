@@ -70,7 +70,7 @@ void read_vehicle(const TomlTable& vehicle, const SpeedTable& speeds, Scenario& 
   const LocalFrame frame{
       {scenario.environment.origin_latitude_deg, scenario.environment.origin_longitude_deg}};
   mission.definition = read_mission(
-      table, {.speed_m_s = scenario.speed_m_s, .link_lost_after = kLinkLostAfter}, frame);
+      table, {.speed_m_s = scenario.speed_m_s, .link_lost_after = kLinkLostAfter}, &frame);
   const auto& goals = mission.definition.goals;
   for (std::uint32_t i = 0; i + 1 < mission.definition.goal_count; ++i) {
     mission.waypoints.push_back(point_of({goals[i].x_m, goals[i].y_m}));

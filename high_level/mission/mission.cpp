@@ -68,7 +68,10 @@ void Mission::start(const MissionDefinition& definition, const WorldPoint& posit
 }
 
 void Mission::hold_speed() noexcept {
-  const HeldSpeed held = options_.speeds.held(std::min(definition_.speed_m_s, speed_limit_m_s_));
+  HeldSpeed held = options_.speeds.held(definition_.speed_m_s);
+  if (held.speed_m_s > speed_limit_m_s_) {
+    held = options_.speeds.held_at_most(speed_limit_m_s_);
+  }
   status_.speed_m_s = held.speed_m_s;
   status_.surge_ref = held.surge_ref;
 }

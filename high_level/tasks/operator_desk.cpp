@@ -219,7 +219,7 @@ Answer OperatorDesk::order(const CommandRequest& request) {
     try {
       if (request.mission) {
         auto mission = std::make_shared<MissionDefinition>(
-            read_mission_text(*request.mission, "mission", options_.mission, frame_));
+            read_mission_text(*request.mission, "mission", options_.mission, &frame_));
         require_possible(*mission);
         order.mission = std::move(mission);
       }

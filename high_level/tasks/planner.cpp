@@ -63,8 +63,9 @@ PlannerTask::PlannerTask(Blackboard& board, Role role, PlannerOptions options)
 }
 
 void PlannerTask::step(Time now) noexcept {
-  frame_is_new_ = obstacles_.newest_sequence() != frame_sequence_;
-  frame_sequence_ = obstacles_.newest_sequence();
+  const auto* frame = obstacles_.latest();
+  frame_is_new_ = frame != nullptr && frame->sequence != frame_sequence_;
+  frame_sequence_ = frame != nullptr ? frame->sequence : 0;
   const auto* state = vehicle_state_.fresh(now, max_age::kVehicleState);
   if (state != nullptr) {
     poses_.add(state->value);

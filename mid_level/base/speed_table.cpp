@@ -51,4 +51,12 @@ HeldSpeed SpeedTable::held(double wanted_m_s) const noexcept {
   return best;
 }
 
+HeldSpeed SpeedTable::held_at_most(double limit_m_s) const noexcept {
+  int surge_ref = 1;
+  while (surge_ref < kMaxSurgeRef && speed_m_s(surge_ref + 1) <= limit_m_s) {
+    ++surge_ref;
+  }
+  return {surge_ref, speed_m_s(surge_ref)};
+}
+
 }  // namespace lodesman

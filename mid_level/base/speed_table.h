@@ -40,6 +40,8 @@ class SpeedTable {
   [[nodiscard]] double speed_m_s(int surge_ref) const noexcept;
   // The SurgeRef in [1, 100] whose speed is nearest.
   [[nodiscard]] HeldSpeed held(double speed_m_s) const noexcept;
+  // The largest SurgeRef in [1, 100] whose speed is no more; 1 where even that is faster.
+  [[nodiscard]] HeldSpeed held_at_most(double speed_m_s) const noexcept;
 
  private:
   std::array<SpeedPoint, kMaxPoints> points_{};

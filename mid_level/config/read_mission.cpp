@@ -22,11 +22,14 @@ using Pair = std::array<double, 2>;
 
 // Far from the origin the plane is not the earth any more.
 [[nodiscard]] Goal goal_of_geodetic(const TomlTable& table, const char* key, const Pair& pair,
-                                    const LocalFrame& frame) {
+                                    const LocalFrame* frame) {
   if (std::abs(pair[0]) > kPole_deg) {
     table.refuse(key, "latitude must be at least -85 and at most 85");
   }
-  const WorldPoint at = frame.to_world({pair[0], pair[1]});
+  if (frame == nullptr) {
+    return {};
+  }
+  const WorldPoint at = frame->to_world({pair[0], pair[1]});
   if (!(at.xy_m.cwiseAbs().maxCoeff() <= kCoordinate_m.max)) {
     table.refuse(key, "is farther than 100 km from the origin of the boat's world");
   }
@@ -46,7 +49,7 @@ void add_goal(Goal goal, MissionDefinition& mission) noexcept {
   mission.goals[mission.goal_count++] = goal;
 }
 
-void read_goals(const TomlTable& table, const LocalFrame& frame, MissionDefinition& mission) {
+void read_goals(const TomlTable& table, const LocalFrame* frame, MissionDefinition& mission) {
   constexpr const char* kWaypoints_m = "waypoints_m";
   constexpr const char* kWaypoints_deg = "waypoints_deg";
   if (one_of(table, kWaypoints_m, kWaypoints_deg, false) == kWaypoints_m) {
@@ -117,7 +120,7 @@ MissionDefaults read_mission_defaults(const TomlTable& table) {
 }
 
 MissionDefinition read_mission(const TomlTable& table, const MissionDefaults& defaults,
-                               const LocalFrame& frame) {
+                               const LocalFrame* frame) {
   MissionDefinition mission;
   read_goals(table, frame, mission);
   mission.goal_radius_m = table.number_or("goal_radius_m", kGoalRadius_m, defaults.goal_radius_m);
@@ -136,7 +139,7 @@ MissionDefinition read_mission(const TomlTable& table, const MissionDefaults& de
 }
 
 MissionDefinition read_mission_text(std::string_view text, const std::string& name,
-                                    const MissionDefaults& defaults, const LocalFrame& frame) {
+                                    const MissionDefaults& defaults, const LocalFrame* frame) {
   const TomlDocument document = TomlDocument::from_text(text, name);
   // The same keys alone, or in a table as a scenario has them.
   const TomlTable root = document.root();

@@ -19,14 +19,15 @@ struct MissionDefaults {
 [[nodiscard]] MissionDefaults read_mission_defaults(const TomlTable& table);
 
 // The keys of a mission in `table`, where other keys may stand too. Latitude and longitude are
-// taken into the world by `frame`. Its id is left 0.
+// taken into the world by `frame`; without one they are looked at, and placed nowhere: the boat
+// alone knows its origin. The mission's id is left 0.
 [[nodiscard]] MissionDefinition read_mission(const TomlTable& table,
                                              const MissionDefaults& defaults,
-                                             const LocalFrame& frame);
+                                             const LocalFrame* frame);
 
 // The text of a mission file; `name` stands for the file in messages.
 [[nodiscard]] MissionDefinition read_mission_text(std::string_view text, const std::string& name,
                                                   const MissionDefaults& defaults,
-                                                  const LocalFrame& frame);
+                                                  const LocalFrame* frame);
 
 }  // namespace lodesman

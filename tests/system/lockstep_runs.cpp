@@ -165,3 +165,33 @@ TEST_CASE("lock-step: what cannot be reached is waited for at a place held again
     CHECK(farthest_m < 2.5);
   }
 }
+
+// The straight way leads through the keep-out area, and round it there is room on one side alone.
+TEST_CASE("areas: fence and keep-out are kept to on the way", "[system]") {
+  const std::string text = R"(name = "areas"
+seed = 1
+time_limit_s = 200.0
+[mission]
+start_m = [0.0, 0.0]
+start_heading_deg = 0.0
+goal_m = [0.0, 24.0]
+goal_radius_m = 0.5
+fence_m = [[-9.0, -4.0], [12.0, -4.0], [12.0, 30.0], [-9.0, 30.0]]
+keep_out_m = [[-7.0, 8.0], [4.0, 8.0], [4.0, 12.0], [-7.0, 12.0]]
+[vehicle]
+speed_m_s = 0.42
+radius_m = 0.5
+)";
+  const BoatConfig configuration = load_configuration("default", {});
+  const Scenario scenario =
+      read_scenario(TomlDocument::from_text(text, "areas.toml"), configuration.speeds);
+  const std::function<bool()> never = [] { return false; };
+  const std::function<void(const RunProgress&)> silent = [](const RunProgress&) {};
+  const RunRecord record = run_lockstep({configuration, scenario, never, silent, {}});
+  CHECK(record.result.outcome == "goal");
+  for (const TrajectoryRow& row : record.trajectory) {
+    INFO(row.t_s << " s: " << row.x_m << ", " << row.y_m);
+    CHECK((row.y_m < 8.0 || row.y_m > 12.0 || row.x_m > 4.5));
+    CHECK((row.x_m < 11.5 && row.x_m > -8.5));
+  }
+}

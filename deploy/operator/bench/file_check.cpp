@@ -21,8 +21,13 @@ namespace {
          has_one_of("vehicle", {"surge_ref", "speed_m_s", "radius_m"});
 }
 
+// Its keys alone, or in a table as a scenario has them, with nothing else beside it.
 [[nodiscard]] bool is_mission(const TomlTable& root) {
-  return root.has("goal_m") || root.has("goal_deg");
+  const auto has_goal = [](const TomlTable& table) {
+    return table.has("goal_m") || table.has("goal_deg");
+  };
+  return has_goal(root) || (root.has("mission") && has_goal(root.table("mission")) &&
+                            !root.table("mission").has("start_m") && !root.has("vehicle"));
 }
 
 // As the boat's programs look at it; a simulated one may get its scenario from elsewhere.
@@ -39,16 +44,18 @@ void check(const std::string& file, const CommonOptions& common, std::string& ki
   if (document.root().empty()) {
     throw StartupError(file, 1, "file", "says nothing");
   }
+  if (is_mission(document.root())) {
+    kind = "mission";
+    const TomlTable root = document.root();
+    const bool in_table = root.has("mission");
+    (void)read_mission(in_table ? root.table("mission") : root,
+                       load_configuration("default", common).mission, nullptr);
+    document.require_all_keys_read();
+    return;
+  }
   if (is_scenario(document.root())) {
     kind = "scenario";
     (void)load_scenario(file, load_configuration("default", common).speeds);
-    return;
-  }
-  if (is_mission(document.root())) {
-    kind = "mission";
-    const BoatConfig config = load_configuration("default", common);
-    (void)read_mission(document.root(), config.mission, LocalFrame{config.origin});
-    document.require_all_keys_read();
     return;
   }
   if (document.root().has("vessel")) {

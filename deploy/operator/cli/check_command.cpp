@@ -43,7 +43,8 @@ struct CheckOptions {
 
 void add_check_command(CLI::App& root, int& exit_status) {
   const auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = root.add_subcommand("check", "Validate configuration and scenario files");
+  CLI::App* command =
+      root.add_subcommand("check", "Validate configuration, mission and scenario files");
   command
       ->add_option(
           "FILE", options->files,

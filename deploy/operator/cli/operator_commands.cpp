@@ -248,7 +248,7 @@ void add(CLI::App& root, const std::string& name, const std::string& description
   if (text.str().size() > kMaxMissionText) {
     throw StartupError(file, 1, "file", "is larger than 32 KiB");
   }
-  (void)read_mission_text(text.str(), file, config.mission, LocalFrame{config.origin});
+  (void)read_mission_text(text.str(), file, config.mission, nullptr);
   return text.str();
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <thread>
 
+#include "deploy/boat/configuration.h"
 #include "deploy/boat/stop_signals.h"
 #include "deploy/operator/bench/file_check.h"
 #include "deploy/operator/cli/common_options.h"
@@ -93,7 +94,11 @@ void look_on(BoardWatch& watch, const SharedBlackboard& board, Duration period) 
 [[nodiscard]] int watch(const WatchOptions& options) {
   refuse_bad_configuration(options.common);
   const std::vector<std::string> found = segments_in("/dev/shm");
-  const std::string segment = choose_segment(options.segment, found, alive_of(found));
+  // That of the boat whose configuration is given.
+  const std::string named = options.segment.empty() && !options.common.config_files.empty()
+                                ? load_configuration("default", options.common).segment
+                                : options.segment;
+  const std::string segment = choose_segment(named, found, alive_of(found));
   const SharedBlackboard board = SharedBlackboard::observe(segment, kPatience);
   catch_stop_signals();
   BoardWatch watch{*board};
@@ -138,7 +143,7 @@ void add_watch_command(CLI::App& root, int& exit_status) {
       root.add_subcommand("watch", "Channels and tasks of a running boat, live; Ctrl-C ends it");
   command
       ->add_option("--segment", options->segment,
-                   "Which one, where several boats run; default: the only /dev/shm/lodesman-*")
+                   "Which one, where several boats run; default: the only /dev/shm/lodesman*")
       ->type_name("NAME");
   command->add_flag("--once", options->once, "Look on for two seconds and print one table");
   add_common_options(*command, options->common);

@@ -43,7 +43,7 @@ std::vector<std::string> segments_in(const std::filesystem::path& directory) {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator{directory, error}) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("lodesman-") && entry.is_regular_file(error)) {
+    if ((name == "lodesman" || name.starts_with("lodesman-")) && entry.is_regular_file(error)) {
       names.push_back(name);
     }
   }
@@ -71,7 +71,7 @@ std::string choose_segment(const std::string& named, const std::vector<std::stri
     return named.substr(named.find_last_of('/') + 1);
   }
   if (found.empty()) {
-    throw NotYetError("--segment: there is no /dev/shm/lodesman-*: is lodesman-low running?");
+    throw NotYetError("--segment: there is no /dev/shm/lodesman*: is lodesman-low running?");
   }
   if (alive.size() == 1) {
     return alive.front();

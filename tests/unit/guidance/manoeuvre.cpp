@@ -213,7 +213,7 @@ TEST_CASE("manoeuvre: doubt of where a track is widens the berth", "[high_level]
 
 TEST_CASE("manoeuvre: a place to wait at is waited at, a goal is not", "[high_level][guidance]") {
   // A mover that reaches the route's end well after the boat can be there.
-  const Tracks tracks = tracks_of({disc_track(3, 18, 10, -0.9, 0.0)});
+  const Tracks tracks = tracks_of({disc_track(3, 20, 10, -0.9, 0.0)});
   const Route route = route_of({{0, 0}, {0, 10}});
   const auto passes = chooser();
   const auto waits = chooser();

@@ -199,3 +199,68 @@ TEST_CASE("mission: a hold stays where it was given, and resume goes on", "[high
   ordered.give(OperatorOrder::kAbort, s(7), {{1, 9}});
   CHECK(ordered.state() == MissionState::kAborted);
 }
+
+TEST_CASE("mission: another one under way takes the place of the one that is sailed",
+          "[high_level][mission]") {
+  Ordered ordered;
+  ordered.give(OperatorOrder::kStart, s(1));
+  ordered.mission.advance({{0, 5}}, s(2));
+  MissionDefinition other = mission_through_5_and_20();
+  other.id = 2;
+  other.goal_count = 1;
+  other.goals[0] = {7, 7};
+  other.speed_m_s = 0.74;
+  ordered.mission.set_at_hand(other);
+  ordered.mission.take({{OperatorOrder::kStart, 0, 2}, 9, s(3)}, {{0, 6}}, s(3));
+  const MissionStatus& status = ordered.mission.status();
+  CHECK(status.answer == OrderAnswer::kObeyed);
+  CHECK(status.mission == 2);
+  CHECK(status.goal_x_m == Approx(7));
+  CHECK(status.surge_ref == 74);
+  CHECK(status.started == s(3));
+  CHECK(status.first_started == s(1));  // a scenario's time goes on
+}
+
+TEST_CASE("mission: a start that names a mission that is not at hand is refused",
+          "[high_level][mission]") {
+  Ordered ordered;
+  ordered.mission.take({{OperatorOrder::kStart, 0, 7}, 1, s(1)}, {}, s(1));
+  CHECK(ordered.mission.status().answer == OrderAnswer::kNoMission);
+  CHECK(ordered.state() == MissionState::kIdle);
+}
+
+TEST_CASE("mission: a lost link does what the mission says, once, and only if it was open",
+          "[high_level][mission]") {
+  struct Row {
+    LinkLost says;
+    MissionState state;
+  };
+  for (const Row& row :
+       {Row{LinkLost::kGoOn, MissionState::kUnderWay}, Row{LinkLost::kHold, MissionState::kHolding},
+        Row{LinkLost::kReturn, MissionState::kUnderWay},
+        Row{LinkLost::kAbort, MissionState::kAborted}}) {
+    Ordered ordered;
+    MissionDefinition mission = mission_through_5_and_20();
+    mission.link_lost = row.says;
+    ordered.mission.set_at_hand(mission);
+    ordered.give(OperatorOrder::kStart, s(1), {{3, 0}});
+    ordered.mission.watch_link({}, {{0, 2}}, s(100));  // nobody commands
+    CHECK(ordered.mission.under_way());
+    const CommandLink link{4, s(100), s(100)};
+    ordered.mission.watch_link(link, {{0, 2}}, s(105));
+    CHECK(ordered.mission.status().cause == MissionCause::kOrder);
+    ordered.mission.watch_link(link, {{0, 2}}, s(105.1));
+    CHECK(ordered.state() == row.state);
+    const bool acts = row.says != LinkLost::kGoOn;
+    CHECK((ordered.mission.status().cause == MissionCause::kLinkLost) == acts);
+    if (row.says == LinkLost::kReturn) {
+      CHECK(ordered.mission.goal().xy_m.x() == Approx(3));
+    }
+    if (row.says == LinkLost::kHold) {
+      // Told to go on without the link, it does.
+      CHECK(ordered.give(OperatorOrder::kResume, s(106)) == OrderAnswer::kObeyed);
+      ordered.mission.watch_link(link, {{0, 2}}, s(107));
+      CHECK(ordered.mission.under_way());
+    }
+  }
+}

@@ -23,6 +23,7 @@ CommandRequest request(const std::string& command, std::uint64_t session = 1) {
 
 DeskOptions with_a_mission() {
   DeskOptions options;
+  options.mission.speed_m_s = 0.22;
   options.at_hand = testing::mission_through({{0, 20}});
   return options;
 }
@@ -251,4 +252,129 @@ TEST_CASE("operator desk: the status says the protocol and what is known", "[hig
   CHECK(said["state"] == "under_way");
   CHECK(said["tunables"]["version"] == 1);
   CHECK(bench.published().empty());
+}
+
+TEST_CASE("operator desk: a start is refused with every reason while the boat is not ready",
+          "[high_level][tasks]") {
+  DeskBench bench;
+  bench.now += max_age::kVehicleState + milliseconds{1};  // all has gone stale but the sonar
+  bench.status(MissionState::kIdle);
+  const std::string error = reply_of(bench.answer("start"))["error"];
+  CHECK(error.starts_with("not ready: "));
+  CHECK(error.find("no heading") != std::string::npos);
+  CHECK(error.find("no position") != std::string::npos);
+  CHECK(error.find("sonar") == std::string::npos);
+  CHECK(bench.published().empty());
+}
+
+TEST_CASE("operator desk: a mission in the order is at hand before the order is",
+          "[high_level][tasks]") {
+  DeskBench bench;
+  CommandRequest start = request("start");
+  start.mission = "goal_m = [3.0, 4.0]\nspeed_m_s = 0.4\n";
+  const Answer answer = bench.desk.answer(start);
+  CHECK_FALSE(answer());  // under way already, and yet an order: it is another mission
+  CHECK(bench.published() == Words{OperatorOrder::kStart});
+  Reader<MissionDefinition> definitions{bench.board->mission_definition};
+  CHECK(definitions.latest()->value.goals[0].y_m == Approx(4.0));
+  Reader<OperatorCommand> orders{bench.board->operator_command};
+  CHECK(orders.latest()->value.mission == definitions.latest()->value.id);
+}
+
+TEST_CASE("operator desk: a mission that cannot be is refused with its line",
+          "[high_level][tasks]") {
+  DeskBench bench;
+  const auto refused = [&](const std::string& text) {
+    CommandRequest start = request("start");
+    start.mission = text;
+    return reply_of(bench.desk.answer(start))["error"].get<std::string>();
+  };
+  CHECK(refused("goal_m = [0, 1]\nspead = 1") == "mission:2: spead: unknown key");
+  CHECK(refused("goal_m = [0, 1]\nspeed_m_s = 5.0").find("no SurgeRef holds 5 m/s") !=
+        std::string::npos);
+  CHECK(refused("goal_m = [0, 9]\nkeep_out_m = [[-1, 8], [1, 8], [1, 10], [-1, 10]]") ==
+        "goal: lies in a keep-out area");
+  CHECK(refused("goal_m = [0, 9]\nkeep_out_m = [[-1, -1], [1, -1], [1, 1], [-1, 1]]") ==
+        "not ready: the boat lies in a keep-out area");
+  CHECK(bench.published().empty());
+}
+
+TEST_CASE("operator desk: a token is good for its scope and what lies below it",
+          "[high_level][tasks]") {
+  DeskBench bench;
+  const auto reply_with = [&](Scope scope, const char* command) {
+    CommandRequest asked = request(command);
+    asked.scope = scope;
+    const auto reply = bench.desk.answer(asked)();
+    return reply ? json::parse(*reply).value("error", "") : "";
+  };
+  CHECK(reply_with(Scope::kView, "status").empty());
+  CHECK(reply_with(Scope::kView, "abort") == "this token is not good for abort");
+  CHECK(reply_with(Scope::kAbort, "abort").empty());
+  for (const char* command : {"start", "hold", "resume", "take", "heartbeat", "release", "tune"}) {
+    CHECK(reply_with(Scope::kAbort, command) ==
+          std::string{"this token is not good for "} + command);
+  }
+}
+
+TEST_CASE("operator desk: while one session commands no other orders, but every one aborts",
+          "[high_level][tasks]") {
+  DeskBench bench;
+  CHECK(reply_of(bench.desk.answer(request("take", 1)))["ok"] == true);
+  Reader<CommandLink> links{bench.board->command_link};
+  CHECK(links.latest()->value.session == 1);
+  CHECK(reply_of(bench.desk.answer(request("hold", 2)))["ok"] == false);
+  CHECK(reply_of(bench.desk.answer(request("tune", 2)))["ok"] == false);
+  CHECK_FALSE(bench.desk.answer(request("abort", 2))());
+  CHECK(bench.published() == Words{OperatorOrder::kAbort});
+  CHECK(reply_of(bench.desk.answer(request("release", 1)))["ok"] == true);
+  CHECK(links.latest()->value.session == 0);
+}
+
+TEST_CASE("operator desk: what guards the boat is not tuned, and the rest within its range",
+          "[high_level][tasks]") {
+  DeskBench bench;
+  const auto tuned = [&](const char* key, double value) {
+    CommandRequest tune = request("tune");
+    tune.set[key] = value;
+    return reply_of(bench.desk.answer(tune));
+  };
+  Reader<Tunables> tunables{bench.board->tunables};
+  CHECK(tunables.latest()->value.version == 1);
+  CHECK(tuned("zones.least_margin_m", 0.1)["error"] ==
+        "zones.least_margin_m: may not be changed under way");
+  CHECK(tuned("mission.speed_limit_m_s", 0.0)["ok"] == false);
+  CHECK(tunables.latest()->value.version == 1);
+  CHECK(tuned("mission.speed_limit_m_s", 0.5)["tunables"]["version"] == 2);
+  CHECK(tunables.latest()->value.speed_limit_m_s == Approx(0.5));
+}
+
+TEST_CASE("operator desk: it starts by itself once the boat is ready, and not after an abort",
+          "[high_level][tasks]") {
+  for (const bool aborted : {false, true}) {
+    Time now{std::chrono::seconds{100}};
+    const auto board = std::make_unique<Blackboard>();
+    DeskOptions options = with_a_mission();
+    options.starts_by_itself = true;
+    OperatorDesk desk{*board, Role::kHigh, options, [&] { return now; }};
+    Writer<MissionStatus> statuses{board->mission_status, Role::kHigh, "mission_status"};
+    Reader<OperatorCommand> orders{board->operator_command};
+    desk.look();
+    CHECK(orders.latest() == nullptr);  // the mission has not spoken
+    MissionStatus idle;
+    idle.state = aborted ? MissionState::kAborted : MissionState::kIdle;
+    statuses.publish(idle, now);
+    desk.look();
+    CHECK(orders.latest() == nullptr);  // nothing is ready
+    Writer<Attitude>{board->attitude, Role::kLow, "a"}.publish({now, 0.0, 0.0}, now);
+    VehicleState here;
+    here.valid_at = now;
+    Writer<VehicleState>{board->vehicle_state, Role::kHigh, "s"}.publish(here, now);
+    const auto seen = std::make_unique<SonarObstacles>();
+    seen->captured = now;
+    Writer<SonarObstacles>{board->sonar_obstacles, Role::kLow, "o"}.publish(*seen, now);
+    Writer<ThrustApplied>{board->thrust_applied, Role::kLow, "t"}.publish({}, now);
+    desk.look();
+    CHECK((orders.latest() != nullptr) == !aborted);
+  }
 }
