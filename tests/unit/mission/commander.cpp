@@ -49,6 +49,6 @@ TEST_CASE("commander: a session that ends without a release has lost its link, n
   CHECK_FALSE(commander.commands(at(0.5)));
   CHECK_FALSE(commander.objection(2, at(0.5)));
   CHECK(commander.link().session == 1);  // the mission may act on it
-  commander.forget_the_lost(at(0.5));     // the next start is not its mission
+  commander.forget_the_lost(at(0.5));    // the next start is not its mission
   CHECK(commander.link().session == 0);
 }
