@@ -157,13 +157,15 @@ void print_reply(const std::string& command, const nlohmann::ordered_json& reply
   return status;
 }
 
-[[nodiscard]] int send(const nlohmann::json& request, const OperatorOptions& options) {
+// `name`: of the command as it was typed.
+[[nodiscard]] int send(const std::string& name, const nlohmann::json& request,
+                       const OperatorOptions& options) {
   const Boat boat = find_boat(options);
   const std::string line = insist(boat, request);
   if (line.empty()) {
     throw no_answer(boat);
   }
-  return conclude(request["command"], line, options);
+  return conclude(name, line, options);
 }
 
 [[nodiscard]] int or_say_why(const std::string& command, const std::function<int()>& act) {
@@ -235,7 +237,7 @@ void add(CLI::App& root, const std::string& name, const std::string& description
   add_boat_options(*command, *options);
   command->footer("Example: lodesman " + name + " --port 7447");
   command->callback([name, options, &exit_status] {
-    exit_status = or_say_why(name, [&] { return send({{"command", name}}, *options); });
+    exit_status = or_say_why(name, [&] { return send(name, {{"command", name}}, *options); });
   });
 }
 
@@ -273,7 +275,7 @@ void add_start(CLI::App& root, int& exit_status) {
       request["mission"] = mission_text(options->mission, options->common);
     }
     exit_status = or_say_why("start", [&] {
-      return options->stay ? follow(request, *options) : send(request, *options);
+      return options->stay ? follow(request, *options) : send("start", request, *options);
     });
   });
 }
@@ -324,7 +326,7 @@ void add_goto(CLI::App& root, int& exit_status) {
       mission += fmt::format("speed_m_s = {:#}\n", *options->speed_m_s);
     }
     exit_status = or_say_why("goto", [&] {
-      return send({{"command", "start"}, {"mission", mission}}, *options);
+      return send("goto", {{"command", "start"}, {"mission", mission}}, *options);
     });
   });
 }
@@ -353,7 +355,7 @@ void add_tune(CLI::App& root, int& exit_status) {
       set[text.substr(0, equals)] = value;
     }
     exit_status = or_say_why("tune", [&] {
-      return send({{"command", "tune"}, {"set", set}}, *options);
+      return send("tune", {{"command", "tune"}, {"set", set}}, *options);
     });
   });
 }

@@ -32,11 +32,21 @@ constexpr const char* kPlain = "\x1b[0m";
 }
 
 [[nodiscard]] std::string line_of(const ChannelRow& row) {
-  return fmt::format("{:<17} {:<15} {:>6} {:>8} {:>6} {:>10} {:>7}", row.name, row.writer_task,
+  return fmt::format("{:<18} {:<14} {:>6} {:>8} {:>6} {:>10} {:>7}", row.name, row.writer_task,
                      row.rate_hz ? fmt::format("{:.1f}", *row.rate_hz) : "-",
                      seconds_or(row.age_s, "never"),
                      row.max_age_s > 0.0 ? fmt::format("{:.1f}", row.max_age_s) : "-",
                      row.publications, row.missed);
+}
+
+[[nodiscard]] std::string line_of(const DeviceRow& row) {
+  const std::string name = fmt::format("{:<11}", to_string(row.device));
+  if (!row.health) {
+    return name + " not told of";
+  }
+  const DeviceHealth& h = *row.health;
+  return name + fmt::format(" {:<13} {:>8.1f} {:>10} {:>8} {:>8} {:>8}", to_string(h.status),
+                            row.for_s, h.samples, h.corrupt, h.refused, h.disconnections);
 }
 
 [[nodiscard]] double in_us(std::uint64_t ns) noexcept { return static_cast<double>(ns) * 1e-3; }
@@ -77,6 +87,20 @@ constexpr const char* kPlain = "\x1b[0m";
           {"publications", row.publications},
           {"missed", row.missed},
           {"refused", row.refused}};
+}
+
+[[nodiscard]] Json json_of(const DeviceRow& row) {
+  Json json{{"name", to_string(row.device)}};
+  if (row.health) {
+    const DeviceHealth& h = *row.health;
+    json["status"] = to_string(h.status);
+    json["for_s"] = row.for_s;
+    json["samples"] = h.samples;
+    json["corrupt"] = h.corrupt;
+    json["refused"] = h.refused;
+    json["disconnections"] = h.disconnections;
+  }
+  return json;
 }
 
 [[nodiscard]] Json json_of(const TaskRow& row) {
@@ -145,11 +169,16 @@ std::vector<std::string> table_lines(const SegmentState& state, bool colour) {
   lines.push_back(marked(fmt::format("{}: lodesman-low {}, lodesman-high {}", state.segment,
                                      life(state.low_alive), life(state.high_alive)),
                          !state.low_alive || !state.high_alive, colour));
-  lines.push_back(fmt::format("  {:<17} {:<15} {:>6} {:>8} {:>6} {:>10} {:>7}", "channel", "writer",
+  lines.push_back(fmt::format("  {:<18} {:<14} {:>6} {:>8} {:>6} {:>10} {:>7}", "channel", "writer",
                               "Hz", "age s", "limit", "published", "missed"));
   for (const ChannelRow& row : state.board.channels) {
     lines.push_back(marked(line_of(row), row.stale, colour));
     add_refused(lines, row.name, row.refused, "publications", colour);
+  }
+  lines.push_back(fmt::format("  {:<11} {:<13} {:>8} {:>10} {:>8} {:>8} {:>8}", "device", "status",
+                              "for s", "samples", "corrupt", "refused", "gone"));
+  for (const DeviceRow& row : state.board.devices) {
+    lines.push_back(marked(line_of(row), row.wrong, colour));
   }
   lines.push_back(fmt::format("  {:<12} {:<4} {:>4} {:>4} {:>10} {:>8} {:>10} {:>9} {:>9}", "task",
                               "in", "ms", "FIFO", "steps", "overruns", "longest us", "late 99 %",
@@ -169,6 +198,10 @@ Json to_json(const SegmentState& state) {
   for (const ChannelRow& row : state.board.channels) {
     channels.push_back(json_of(row));
   }
+  Json devices = Json::array();
+  for (const DeviceRow& row : state.board.devices) {
+    devices.push_back(json_of(row));
+  }
   Json tasks = Json::array();
   for (const TaskRow& row : state.board.tasks) {
     tasks.push_back(json_of(row));
@@ -177,6 +210,7 @@ Json to_json(const SegmentState& state) {
           {"low_alive", state.low_alive},
           {"high_alive", state.high_alive},
           {"channels", std::move(channels)},
+          {"devices", std::move(devices)},
           {"tasks", std::move(tasks)},
           {"ping_to_thrust", state.board.chain ? json_of(*state.board.chain) : Json(nullptr)}};
 }

@@ -13,6 +13,9 @@ BoardWatch::BoardWatch(const Blackboard& board) : chain_{board} {
     using Value = typename C::Value;
     if constexpr (std::is_same_v<Value, TaskHealth>) {
       tasks_.push_back({info, Reader<TaskHealth>{channel}, std::nullopt});
+    } else if constexpr (std::is_same_v<Value, DeviceHealth>) {
+      device_readers_.emplace_back(channel);
+      devices_.emplace_back();
     } else {
       // Shared only because a std::function must be copyable.
       const auto reader = std::make_shared<Reader<Value>>(channel);
@@ -47,6 +50,11 @@ void BoardWatch::poll(Time now) {
       seen.looks.pop_front();
     }
   }
+  for (std::size_t i = 0; i < devices_.size(); ++i) {
+    if (const auto* newest = device_readers_[i].latest(); newest != nullptr) {
+      devices_[i] = *newest;
+    }
+  }
   for (TaskSeen& seen : tasks_) {
     if (const auto* newest = seen.reader.latest(); newest != nullptr) {
       seen.newest = *newest;
@@ -58,6 +66,9 @@ BoardState BoardWatch::state() const {
   BoardState state;
   for (const ChannelSeen& seen : channels_) {
     state.channels.push_back(row_of(seen));
+  }
+  for (std::size_t i = 0; i < devices_.size(); ++i) {
+    state.devices.push_back(row_of(devices_[i], i));
   }
   for (std::size_t i = 0; i < tasks_.size(); ++i) {
     state.tasks.push_back(row_of(tasks_[i], i));
@@ -85,6 +96,20 @@ ChannelRow BoardWatch::row_of(const ChannelSeen& seen) const {
   }
   const bool limited = seen.info.max_age > Duration::zero();
   row.stale = limited && (seen.sequence == 0 || now_ - seen.stamp > seen.info.max_age);
+  return row;
+}
+
+DeviceRow BoardWatch::row_of(const std::optional<Stamped<DeviceHealth>>& newest,
+                             std::size_t device) const {
+  DeviceRow row;
+  row.device = static_cast<DeviceId>(device);
+  row.wrong = !newest || now_ - newest->stamp > max_age::kDeviceHealth;
+  if (newest) {
+    const DeviceStatus status = newest->value.status;
+    row.health = newest->value;
+    row.for_s = to_seconds(now_ - newest->value.since);
+    row.wrong |= status != DeviceStatus::kWorking && status != DeviceStatus::kAbsent;
+  }
   return row;
 }
 

@@ -38,8 +38,16 @@ struct TaskRow {
   bool silent = false;               // it has run, and tells nothing any more
 };
 
+struct DeviceRow {
+  DeviceId device = DeviceId::kHeading;
+  std::optional<DeviceHealth> health;  // nothing where its task has not told of it
+  double for_s = 0.0;                  // it has had that status
+  bool wrong = false;                  // not working, though the boat has it
+};
+
 struct BoardState {
   std::vector<ChannelRow> channels;
+  std::vector<DeviceRow> devices;
   std::vector<TaskRow> tasks;
   std::optional<PingToThrust> chain;  // nothing where no plan was followed yet
 };
@@ -80,9 +88,13 @@ class BoardWatch {
   };
 
   [[nodiscard]] ChannelRow row_of(const ChannelSeen& seen) const;
+  [[nodiscard]] DeviceRow row_of(const std::optional<Stamped<DeviceHealth>>& newest,
+                                 std::size_t device) const;
   [[nodiscard]] TaskRow row_of(const TaskSeen& seen, std::size_t task) const;
 
   std::vector<ChannelSeen> channels_;
+  std::vector<Reader<DeviceHealth>> device_readers_;
+  std::vector<std::optional<Stamped<DeviceHealth>>> devices_;
   std::vector<TaskSeen> tasks_;
   ChainWatch chain_;
   Time now_{};

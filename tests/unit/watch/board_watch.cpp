@@ -200,7 +200,7 @@ TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
   watch.poll(kStart);
   const SegmentState state{"lodesman-x", true, false, watch.state()};
   const auto lines = table_lines(state, false);
-  REQUIRE(lines.size() == 3 + 17 + kDeviceCount + kTaskCount + 1);
+  REQUIRE(lines.size() == 3 + 17 + 1 + kDeviceCount + kTaskCount + 1);
   REQUIRE(lines[0] == "! lodesman-x: lodesman-low alive, lodesman-high GONE");
   std::string all;
   for (const std::string& line : lines) {
@@ -220,7 +220,8 @@ TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
 
   const auto json = to_json(state);
   REQUIRE(json.at("high_alive") == false);
-  REQUIRE(json.at("channels").size() == 17 + kDeviceCount);
+  REQUIRE(json.at("channels").size() == 17);
+  REQUIRE(json.at("devices").size() == kDeviceCount);
   REQUIRE(json.at("channels")[1].at("name") == "attitude");
   REQUIRE(json.at("channels")[1].at("stale") == false);
   REQUIRE(json.at("tasks").size() == kTaskCount);
@@ -229,6 +230,28 @@ TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
   REQUIRE(json.at("tasks")[1].at("refused") == 7);
   REQUIRE(json.at("tasks")[1].at("late_p99_us") == Approx(64.0));
   REQUIRE(json.at("tasks")[1].at("worst_late_ns") == 800'000);
+}
+
+TEST_CASE("watch: a device is shown with its status, and since when", "[cli]") {
+  Boat boat;
+  Writer<DeviceHealth> heading{boat.board->device_health[0], Role::kLow, "heading"};
+  Writer<DeviceHealth> position{boat.board->device_health[2], Role::kLow, "position"};
+  heading.publish({DeviceStatus::kDisconnected, kStart, 17, 2, 1, 3}, kStart);
+  position.publish({DeviceStatus::kAbsent, kStart, 0, 0, 0, 0}, kStart);
+  BoardWatch watch{*boat.board};
+  watch.poll(kStart + std::chrono::seconds{2});
+  const SegmentState state{"lodesman-x", true, true, watch.state()};
+  std::string all;
+  for (const std::string& line : table_lines(state, false)) {
+    REQUIRE(line.size() <= 80);
+    all += line + "\n";
+  }
+  REQUIRE(
+      all.find("\n! heading     disconnected       2.0         17        2        1        3\n") !=
+      std::string::npos);
+  REQUIRE(all.find("\n! sonar       not told of\n") != std::string::npos);
+  REQUIRE(all.find("\n  position    absent ") != std::string::npos);
+  REQUIRE(to_json(state).at("devices").at(0).at("status") == "disconnected");
 }
 
 TEST_CASE("watch: the segment is the one named, or the only one", "[cli]") {
