@@ -260,7 +260,9 @@ void OperatorDesk::publish_link() { links_.publish(commander_.link(), now_()); }
 
 std::string OperatorDesk::tune(const CommandRequest& request) {
   Tunables next = options_.tunables;
-  for (const auto& [key, value] : request.set) {
+  for (const auto& setting : request.set) {
+    const std::string& key = setting.first;
+    const double value = setting.second;
     const auto* tunable = std::find_if(kTunables.begin(), kTunables.end(),
                                        [&](const Tunable& t) { return t.key == key; });
     if (tunable == kTunables.end()) {
