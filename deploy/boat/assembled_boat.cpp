@@ -35,13 +35,13 @@ struct Contract {
   std::vector<std::string_view> schemes;
 };
 [[nodiscard]] const std::array<Contract, kDeviceCount>& contracts() {
-  static const std::array<Contract, kDeviceCount> table{{
+  static const std::array<Contract, kDeviceCount> kTable{{
       {"heading", &DeviceAddresses::heading, false, {"sim", "nav440"}},
       {"sonar", &DeviceAddresses::sonar, false, {"sim", "delta_t"}},
       {"position", &DeviceAddresses::position, true, {"sim", "gpsd", "nmea", "nav440"}},
       {"thrusters", &DeviceAddresses::thrusters, true, {"sim", "maestro", "roboclaw"}},
   }};
-  return table;
+  return kTable;
 }
 
 [[nodiscard]] const char* simulated_device(const DeviceAddresses& devices) {
@@ -69,7 +69,7 @@ void require_addresses(const BoatConfig& config) {
     }
     std::string list;
     for (const std::string_view scheme : contract.schemes) {
-      list += (list.empty() ? "" : ", ") + std::string{scheme} + ":...";
+      list.append(list.empty() ? "" : ", ").append(scheme).append(":...");
     }
     table.refuse(contract.key, "\"" + address + "\" is no address of a device; known: " + list +
                                    (contract.optional ? ", none" : ""));
