@@ -53,6 +53,21 @@ struct Contract {
   return nullptr;
 }
 
+[[nodiscard]] bool is_known(const Contract& contract, const std::string& address) {
+  const auto colon = address.find(':');
+  return colon != std::string::npos &&
+         std::find(contract.schemes.begin(), contract.schemes.end(), address.substr(0, colon)) !=
+             contract.schemes.end();
+}
+
+[[nodiscard]] std::string not_known(const Contract& contract, const std::string& address) {
+  std::string text = "\"" + address + "\" is no address of a device; known: ";
+  for (const std::string_view scheme : contract.schemes) {
+    text.append(scheme).append(":..., ");
+  }
+  return contract.optional ? text + kNone : text.substr(0, text.size() - 2);
+}
+
 void require_addresses(const BoatConfig& config) {
   const TomlTable table = config.document.root().table("devices");
   for (const Contract& contract : contracts()) {
@@ -60,19 +75,9 @@ void require_addresses(const BoatConfig& config) {
     if (address == kNone && !contract.optional) {
       table.refuse(contract.key, "must not be none: no boat sails without it");
     }
-    const auto colon = address.find(':');
-    const bool known =
-        colon != std::string::npos && std::find(contract.schemes.begin(), contract.schemes.end(),
-                                                address.substr(0, colon)) != contract.schemes.end();
-    if (address == kNone || known) {
-      continue;
+    if (address != kNone && !is_known(contract, address)) {
+      table.refuse(contract.key, not_known(contract, address));
     }
-    std::string list;
-    for (const std::string_view scheme : contract.schemes) {
-      list.append(list.empty() ? "" : ", ").append(scheme).append(":...");
-    }
-    table.refuse(contract.key, "\"" + address + "\" is no address of a device; known: " + list +
-                                   (contract.optional ? ", none" : ""));
   }
 }
 
