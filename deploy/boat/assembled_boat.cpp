@@ -99,8 +99,7 @@ void require_sound_vessel(const BoatConfig& config) {
         .table("simulation")
         .refuse("vessel",
                 "is where the estimate is, and that would come from simulated sensors aboard it: "
-                "must be "
-                "\"thrust\"");
+                "must be \"thrust\"");
   }
 }
 
@@ -114,8 +113,8 @@ void require_sound_position(const BoatConfig& config, const Voyage& voyage, bool
   }
   if (source == PositionSource::kTruth && !has_truth) {
     estimator.refuse("position_source",
-                     "no world is simulated that would tell the truth: must be "
-                     "gps or dead_reckoning");
+                     "no world is simulated that would tell the truth: must be gps or "
+                     "dead_reckoning");
   }
   if (config.devices.position == kNone && source != PositionSource::kDeadReckoning) {
     config.document.root().table("devices").refuse(
@@ -155,10 +154,13 @@ class Catalogue {
         return std::make_unique<Simulated>(*scenario_, *link_);
       });
     }
+    if (!registry.knows(address)) {
+      refuse(key, "there is no driver for \"" + address + "\" yet");
+    }
     try {
       return registry.make(address);
-    } catch (const StartupError&) {
-      refuse(key, "there is no driver for \"" + address + "\" yet");
+    } catch (const StartupError& error) {
+      refuse(key, error.what());
     }
   }
 

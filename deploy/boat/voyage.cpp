@@ -25,8 +25,11 @@ Voyage voyage_of(const BoatConfig& config, const Scenario* scenario) {
     return voyage;
   }
   voyage.start = scenario->mission.start.p_WV;
-  voyage.origin = {scenario->environment.origin_latitude_deg,
-                   scenario->environment.origin_longitude_deg};
+  // A real boat among simulated obstacles is where its own fixes say.
+  if (config.simulation.vessel == SimulatedVessel::kThrust) {
+    voyage.origin = {scenario->environment.origin_latitude_deg,
+                     scenario->environment.origin_longitude_deg};
+  }
   voyage.seed = scenario->seed;
   voyage.mission = scenario->mission.definition;
   voyage.sonar_sector_rad = scenario->sonar.sector_rad;

@@ -26,6 +26,10 @@ class DeviceRegistry {
     factories_.insert_or_assign(scheme, std::move(factory));
   }
 
+  [[nodiscard]] bool knows(const std::string& address) const {
+    return factories_.contains(address.substr(0, address.find(':')));
+  }
+
   // Throws StartupError, naming the schemes there are, when the address fits none. What it says is
   // the reason alone: the caller knows in which file the address stands.
   [[nodiscard]] std::unique_ptr<Contract> make(const std::string& address) const {

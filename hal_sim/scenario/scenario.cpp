@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hal_sim/scenario/scenario.h"
 
-#include <cstdio>
 #include <limits>
 
 #include "mid_level/base/geodesy.h"
+#include "mid_level/base/short_number.h"
 #include "mid_level/config/read_mission.h"
 
 namespace lodesman {
@@ -16,14 +16,7 @@ constexpr double kMaxCoordinate_m = 1e5;
 constexpr double kMaxTimeLimit_s = 1e5;
 constexpr double kMaxSpeed_m_s = 10.0;
 constexpr double kMaxRadius_m = 100.0;
-constexpr Duration kLinkLostAfter = std::chrono::seconds{5};
 constexpr std::size_t kMaxNameLength = 64;
-
-[[nodiscard]] std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
 
 [[nodiscard]] WorldPoint point_of(const std::array<double, 2>& pair) {
   return {{pair[0], pair[1]}};
@@ -47,12 +40,10 @@ void read_vehicle(const TomlTable& vehicle, const SpeedTable& speeds, Scenario& 
     scenario.speed_m_s = speeds.speed_m_s(scenario.surge_ref);
   } else {
     const double wanted_m_s = vehicle.number("speed_m_s", Range::above(0.0, kMaxSpeed_m_s));
-    const HeldSpeed held = speeds.held(wanted_m_s);
-    if (std::abs(held.speed_m_s - wanted_m_s) > kSpeedTolerance * wanted_m_s) {
-      vehicle.refuse("speed_m_s", "no SurgeRef holds it within 3 % (the nearest, " +
-                                      std::to_string(held.surge_ref) + ", gives " +
-                                      short_number(held.speed_m_s) + " m/s)");
+    if (const std::string no = speeds.objection(wanted_m_s); !no.empty()) {
+      vehicle.refuse("speed_m_s", no);
     }
+    const HeldSpeed held = speeds.held(wanted_m_s);
     scenario.surge_ref = held.surge_ref;
     scenario.speed_m_s = held.speed_m_s;
   }
@@ -69,28 +60,22 @@ void read_vehicle(const TomlTable& vehicle, const SpeedTable& speeds, Scenario& 
   (void)table.number("goal_radius_m", Range::above(0.0, kMaxRadius_m));  // here it is required
   const LocalFrame frame{
       {scenario.environment.origin_latitude_deg, scenario.environment.origin_longitude_deg}};
-  mission.definition = read_mission(
-      table, {.speed_m_s = scenario.speed_m_s, .link_lost_after = kLinkLostAfter}, &frame);
-  const auto& goals = mission.definition.goals;
-  for (std::uint32_t i = 0; i + 1 < mission.definition.goal_count; ++i) {
-    mission.waypoints.push_back(point_of({goals[i].x_m, goals[i].y_m}));
-  }
-  const Goal& last = goals[mission.definition.goal_count - 1];
-  mission.goal = point_of({last.x_m, last.y_m});
-  mission.goal_radius_m = mission.definition.goal_radius_m;
+  mission.definition = read_mission(table, {.speed_m_s = scenario.speed_m_s}, &frame);
   return mission;
 }
 
 // The shortest way that counts as done: each waypoint and the goal are reached at their radius.
 void require_reachable(const TomlTable& table, const Scenario& scenario) {
   const ScenarioMission& mission = scenario.mission;
-  double way_m = -mission.goal_radius_m;
+  const double radius_m = mission.definition.goal_radius_m;
+  double way_m = -radius_m;
   WorldPoint from = mission.start.p_WV;
-  for (const WorldPoint& waypoint : mission.waypoints) {
-    way_m += (waypoint.xy_m - from.xy_m).norm() - 2.0 * mission.goal_radius_m;
-    from = waypoint;
+  for (const Goal& waypoint : mission.waypoints()) {
+    const WorldPoint to{{waypoint.x_m, waypoint.y_m}};
+    way_m += (to.xy_m - from.xy_m).norm() - 2.0 * radius_m;
+    from = to;
   }
-  way_m += (mission.goal.xy_m - from.xy_m).norm();
+  way_m += (mission.goal().xy_m - from.xy_m).norm();
   const double reach_m = scenario.speed_m_s * scenario.time_limit_s;
   if (way_m > reach_m) {
     table.refuse("goal_m", "is farther than speed x time limit (" + short_number(way_m) +

@@ -22,10 +22,16 @@ namespace lodesman {
 
 struct ScenarioMission {
   VehiclePose start;
-  MissionDefinition definition;       // what the boat is told: the goals below, and the rest
-  std::vector<WorldPoint> waypoints;  // visited in order before the goal
-  WorldPoint goal;
-  double goal_radius_m = 0.0;
+  MissionDefinition definition;  // what the boat is told; it has a goal
+
+  // Visited in order before the goal.
+  [[nodiscard]] std::span<const Goal> waypoints() const noexcept {
+    return {definition.goals.data(), definition.goal_count - 1};
+  }
+  [[nodiscard]] WorldPoint goal() const noexcept {
+    const Goal& last = definition.goals[definition.goal_count - 1];
+    return {{last.x_m, last.y_m}};
+  }
 };
 
 struct ScenarioEnvironment {
@@ -72,8 +78,8 @@ struct Scenario {
   std::vector<Fault> faults;
 };
 
-// Throw StartupError `file:line: key: reason`. The boat's own
-// calibration tells which SurgeRef holds a speed.
+// Throw StartupError `file:line: key: reason`. The boat's own calibration tells which SurgeRef
+// holds a speed.
 [[nodiscard]] Scenario read_scenario(const TomlDocument& document, const SpeedTable& speeds);
 [[nodiscard]] Scenario load_scenario(const std::filesystem::path& path, const SpeedTable& speeds);
 

@@ -215,34 +215,28 @@ struct CommandSocket::Impl {
     }
   }
 
-  asio::awaitable<void> look_now_and_then() {
+  asio::awaitable<void> every(Duration period, std::function<void()> act) {
     asio::steady_timer timer{context};
     for (;;) {
       error_code ignored;
-      timer.expires_after(kLookPeriod);
+      timer.expires_after(period);
       co_await timer.async_wait(asio::redirect_error(asio::use_awaitable, ignored));
-      events.look();
+      act();
     }
   }
 
-  asio::awaitable<void> put_out_the_silent() {
-    asio::steady_timer timer{context};
-    for (;;) {
-      error_code ignored;
-      timer.expires_after(kIdleLookPeriod);
-      co_await timer.async_wait(asio::redirect_error(asio::use_awaitable, ignored));
-      const auto now = asio::steady_timer::clock_type::now();
-      for (auto next = sessions.begin(); next != sessions.end();) {
-        const auto session = next++;
-        const Duration limit = (*session)->standing == Standing::kStranger
-                                   ? options.stranger_idle_limit
-                                   : options.idle_limit;
-        if (now - (*session)->heard > limit) {
-          put_out(session);
-        }
+  void put_out_the_silent() {
+    const auto now = asio::steady_timer::clock_type::now();
+    for (auto next = sessions.begin(); next != sessions.end();) {
+      const auto session = next++;
+      const Duration limit = (*session)->standing == Standing::kStranger
+                                 ? options.stranger_idle_limit
+                                 : options.idle_limit;
+      if (now - (*session)->heard > limit) {
+        put_out(session);
       }
-      spare.take();
     }
+    spare.take();
   }
 
   [[nodiscard]] bool somebody_awaits_an_answer() const {
@@ -327,9 +321,12 @@ CommandSocket::CommandSocket(const CommandSocketOptions& options, CommandHandler
     : impl_{std::make_unique<Impl>(options, std::move(handler), std::move(events))} {
   impl_->open();
   asio::co_spawn(impl_->context, impl_->listen(), asio::detached);
-  asio::co_spawn(impl_->context, impl_->put_out_the_silent(), asio::detached);
+  asio::co_spawn(
+      impl_->context,
+      impl_->every(kIdleLookPeriod, [impl = impl_.get()] { impl->put_out_the_silent(); }),
+      asio::detached);
   if (impl_->events.look) {
-    asio::co_spawn(impl_->context, impl_->look_now_and_then(), asio::detached);
+    asio::co_spawn(impl_->context, impl_->every(kLookPeriod, impl_->events.look), asio::detached);
   }
   impl_->thread = std::jthread{[impl = impl_.get()] { impl->run(); }};
 }

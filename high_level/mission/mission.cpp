@@ -98,8 +98,11 @@ void Mission::abort(std::uint64_t count, MissionCause cause) noexcept {
 
 void Mission::watch_link(const CommandLink& link, const WorldPoint& position, Time now) noexcept {
   // A session that has let go of the command, or never had it, is no link that could be lost.
-  const bool open = link.session != 0 && link.session != link_lost_of_;
-  if (!under_way() || !open || now - link.heard <= definition_.link_lost_after) {
+  const bool heard = now - link.heard <= definition_.link_lost_after;
+  if (heard && link.session == link_lost_of_) {
+    link_lost_of_ = 0;  // it is back, and may be lost again
+  }
+  if (!under_way() || link.session == 0 || heard || link.session == link_lost_of_) {
     return;
   }
   link_lost_of_ = link.session;

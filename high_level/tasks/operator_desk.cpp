@@ -2,11 +2,11 @@
 #include "high_level/tasks/operator_desk.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "high_level/guidance/areas.h"
+#include "mid_level/base/short_number.h"
 
 namespace lodesman {
 namespace {
@@ -69,12 +69,6 @@ constexpr std::array<Tunable, 5> kTunables{{
     {"control.heading_gain_per_deg", &Tunables::heading_gain_per_deg, 0.01, 100.0},
 }};
 
-[[nodiscard]] std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 [[nodiscard]] ordered_json json_of(const Tunables& tunables) {
   ordered_json json{{"version", tunables.version}};
   for (const Tunable& tunable : kTunables) {
@@ -116,11 +110,8 @@ OperatorDesk::OperatorDesk(Blackboard& board, Role role, DeskOptions options, No
 }
 
 void OperatorDesk::require_possible(const MissionDefinition& mission) const {
-  const HeldSpeed held = options_.speeds.held(mission.speed_m_s);
-  if (std::abs(held.speed_m_s - mission.speed_m_s) > kSpeedTolerance * mission.speed_m_s) {
-    throw StartupError("speed_m_s: no SurgeRef holds " + short_number(mission.speed_m_s) +
-                       " m/s within 3 % (the nearest, " + std::to_string(held.surge_ref) +
-                       ", gives " + short_number(held.speed_m_s) + " m/s)");
+  if (const std::string no = options_.speeds.objection(mission.speed_m_s); !no.empty()) {
+    throw StartupError("speed_m_s: " + no);
   }
   if (mission.area_count > 0 && !options_.obeys_areas) {
     throw StartupError("fence_m, keep_out_m: the paper's planner knows none (planner.space)");

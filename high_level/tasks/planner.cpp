@@ -13,6 +13,10 @@ namespace {
 
 constexpr double kStay_m = 1.5;  // a place to wait at is kept within this
 
+[[nodiscard]] bool has_no_thrust(ThrustReason reason) noexcept {
+  return reason == ThrustReason::kDeviceFailed || reason == ThrustReason::kNoThrusters;
+}
+
 // A frame is given its full age before its absence counts.
 [[nodiscard]] ReplannerOptions with_silence_limit(ReplannerOptions options) noexcept {
   options.silence_limit = options.replan_period + max_age::kSonarFrame;
@@ -250,7 +254,7 @@ ProgressSample PlannerTask::progress_sample(Time now) noexcept {
     sample.cause = NoWayCause::kNoHeading;
   } else if (state == nullptr) {
     sample.cause = NoWayCause::kNoPosition;
-  } else if (thrust == nullptr || thrust->value.reason == ThrustReason::kDeviceFailed) {
+  } else if (thrust == nullptr || has_no_thrust(thrust->value.reason)) {
     sample.cause = NoWayCause::kThrusters;
   } else if (!planned || plan->value.waypoint_count == 0) {
     sample.cause = NoWayCause::kNoPlan;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mid_level/base/check.h"
+#include "mid_level/base/short_number.h"
 
 namespace lodesman {
 
@@ -49,6 +50,15 @@ HeldSpeed SpeedTable::held(double wanted_m_s) const noexcept {
     }
   }
   return best;
+}
+
+std::string SpeedTable::objection(double wanted_m_s) const {
+  const HeldSpeed nearest = held(wanted_m_s);
+  if (std::abs(nearest.speed_m_s - wanted_m_s) <= kSpeedTolerance * wanted_m_s) {
+    return "";
+  }
+  return "no SurgeRef holds it within 3 % (the nearest, " + std::to_string(nearest.surge_ref) +
+         ", gives " + short_number(nearest.speed_m_s) + " m/s)";
 }
 
 HeldSpeed SpeedTable::held_at_most(double limit_m_s) const noexcept {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 
 namespace lodesman {
 
@@ -40,6 +41,8 @@ class SpeedTable {
   [[nodiscard]] double speed_m_s(int surge_ref) const noexcept;
   // The SurgeRef in [1, 100] whose speed is nearest.
   [[nodiscard]] HeldSpeed held(double speed_m_s) const noexcept;
+  // Why a speed that is asked for cannot be held, in words; empty where it can.
+  [[nodiscard]] std::string objection(double speed_m_s) const;
   // The largest SurgeRef in [1, 100] whose speed is no more; 1 where even that is faster.
   [[nodiscard]] HeldSpeed held_at_most(double speed_m_s) const noexcept;
 

@@ -112,6 +112,12 @@ void require_done(const TomlTable& table, const char* key, std::string_view done
   }
 }
 
+void refuse_undone(const TomlTable& table, const char* key) {
+  if (table.has(key)) {
+    table.refuse(key, "is not done yet: leave it out");
+  }
+}
+
 }  // namespace
 
 MissionDefaults read_mission_defaults(const TomlTable& table) {
@@ -132,8 +138,8 @@ MissionDefinition read_mission(const TomlTable& table, const MissionDefaults& de
   read_areas(table, mission);
   require_done(table, "legs", "free");
   require_done(table, "blocked", "hold");
-  require_done(table, "battery_low", "warn");
-  require_done(table, "on_restart", "hold");
+  refuse_undone(table, "battery_low");
+  refuse_undone(table, "on_restart");
   require_done(table, "colregs", "off");
   return mission;
 }

@@ -14,7 +14,7 @@ struct MissionDefaults {
   double goal_radius_m = 0.5;
   double speed_m_s = 0.0;
   LinkLost link_lost = LinkLost::kGoOn;
-  Duration link_lost_after{};
+  Duration link_lost_after = std::chrono::seconds{5};
 };
 [[nodiscard]] MissionDefaults read_mission_defaults(const TomlTable& table);
 

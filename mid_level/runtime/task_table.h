@@ -16,12 +16,10 @@ inline constexpr std::array<TaskSpec, kTaskCount> kTaskTable = [] {
   using ms = std::chrono::milliseconds;
   using us = std::chrono::microseconds;
   return std::array<TaskSpec, kTaskCount>{{
-      // task, period, phase, SCHED_FIFO priority, budget, deadline, least gap, nominal time. DeltaT
-      // and the planner are rung for twice a ping, for its estimate and for its path, and a
-      // simulated
-      // AHRS just after it began by its period: a longer gap would be waited for each time.
-      // Nominal:
-      // what lay between two begins on an idle machine.
+      // task, period, phase, SCHED_FIFO priority, budget, deadline, least gap, nominal time.
+      // DeltaT and the planner are rung for twice a ping, for its estimate and for its path, and a
+      // simulated AHRS just after it began by its period: a longer gap would be waited for each
+      // time. Nominal: what lay between two begins on an idle machine.
       {TaskId::kWorld, ms{20}, ms{0}, 40, ms{2}, ms{10}, ms{1}, us{80}},
       {TaskId::kAhrs, ms{20}, ms{0}, 60, ms{1}, ms{5}, us{200}, us{60}},
       {TaskId::kPosition, ms{100}, ms{0}, 30, ms{1}, ms{20}, ms{1}, us{60}},

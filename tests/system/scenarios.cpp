@@ -102,7 +102,7 @@ Sailed sail(const std::string& scenario_name, const std::string& profile) {
   }
   if (profile == "default" && sailed.resting) {
     if (const auto shortest_m =
-            zones.shortest_m(scenario.mission.start.p_WV, scenario.mission.goal)) {
+            zones.shortest_m(scenario.mission.start.p_WV, scenario.mission.goal())) {
       sailed.over_shortest = estimated_way_m(sailed.record) / *shortest_m;
     }
   }

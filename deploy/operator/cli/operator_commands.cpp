@@ -198,13 +198,12 @@ void print_reply(const std::string& command, const nlohmann::ordered_json& reply
   catch_stop_signals();
   std::string state;
   while (!stop_caught() && state != "reached" && state != "aborted") {
-    const auto beat = nlohmann::json::parse(ask({{"command", "heartbeat"}}), nullptr, false);
-    const std::string now = beat.is_object() ? beat.value("state", "") : "";
-    if (!beat.is_object() || !beat.value("ok", false)) {
-      fmt::print(stderr, "start: {}\n",
-                 beat.is_object() ? beat.value("error", "") : "no proper answer");
-      return kExitNoGoal;
+    const std::string line = ask({{"command", "heartbeat"}});
+    const auto beat = nlohmann::ordered_json::parse(line, nullptr, false);
+    if (exit_status_of("start", beat) != kExitDone) {
+      return conclude("start", line, options);
     }
+    const std::string now = beat.value("state", "");
     if (now != state && !options.common.quiet) {
       fmt::print(stderr, "mission: {}\n", now);
     }

@@ -32,25 +32,27 @@ constexpr std::size_t kMaxNotices = 1000;
 RunRecord blank_record(const Scenario& scenario, double waypoint_radius_m) {
   RunRecord record;
   record.start_m = metres(scenario.mission.start.p_WV);
-  record.goal_m = metres(scenario.mission.goal);
-  record.goal_radius_m = scenario.mission.goal_radius_m;
+  record.goal_m = metres(scenario.mission.goal());
+  record.goal_radius_m = scenario.mission.definition.goal_radius_m;
   record.vehicle_radius_m = scenario.vehicle_radius_m;
   record.waypoint_radius_m = waypoint_radius_m;
   record.obstacles = scenario.obstacles;
   record.result.final_m = record.start_m;
   record.result.goal_error_m =
-      (scenario.mission.goal.xy_m - scenario.mission.start.p_WV.xy_m).norm();
+      (scenario.mission.goal().xy_m - scenario.mission.start.p_WV.xy_m).norm();
   return record;
 }
 
 double way_left_m(const ScenarioMission& mission, std::size_t goal_index, const WorldPoint& from) {
   double left_m = 0.0;
   WorldPoint at = from;
-  for (std::size_t i = goal_index; i < mission.waypoints.size(); ++i) {
-    left_m += (mission.waypoints[i].xy_m - at.xy_m).norm();
-    at = mission.waypoints[i];
+  const std::span<const Goal> waypoints = mission.waypoints();
+  for (const Goal& waypoint : waypoints.subspan(std::min(goal_index, waypoints.size()))) {
+    const WorldPoint to{{waypoint.x_m, waypoint.y_m}};
+    left_m += (to.xy_m - at.xy_m).norm();
+    at = to;
   }
-  return left_m + (mission.goal.xy_m - at.xy_m).norm();
+  return left_m + (mission.goal().xy_m - at.xy_m).norm();
 }
 
 RunWatcher::RunWatcher(const Blackboard& board, const Scenario& scenario, double waypoint_radius_m)

@@ -46,7 +46,7 @@ TEST_CASE("encounter: every text is a scenario that can be read", "[hal_sim][cam
     const Scenario scenario = sailed(number);
     speeds.insert(scenario.surge_ref);
     counts.insert(scenario.obstacles.size());
-    const double way_m = scenario.mission.goal.xy_m.norm();
+    const double way_m = scenario.mission.goal().xy_m.norm();
     CHECK(way_m >= 18.0);
     CHECK(way_m <= 24.4);
     for (const MovingObstacle& obstacle : scenario.obstacles) {
@@ -73,7 +73,7 @@ TEST_CASE("encounter: nothing lies at the start, and nothing rests at the goal",
     for (const MovingObstacle& obstacle : scenario.obstacles) {
       CHECK(edge_distance_m(obstacle.at_start, scenario.mission.start.p_WV) >= 4.0 - kRounding_m);
       if (!moves(obstacle)) {
-        CHECK(edge_distance_m(obstacle.at_start, scenario.mission.goal) >= 3.0 - kRounding_m);
+        CHECK(edge_distance_m(obstacle.at_start, scenario.mission.goal()) >= 3.0 - kRounding_m);
       }
     }
   }

@@ -94,7 +94,9 @@ TEST_CASE("mission file: what is not done yet is refused, not taken and forgotte
   CHECK(refusal_of("goal_m = [0, 1]\nlegs = \"line\"") ==
         "m.toml:2: legs: only \"free\" is done yet");
   CHECK(refusal_of("goal_m = [0, 1]\nbattery_low = \"return\"") ==
-        "m.toml:2: battery_low: only \"warn\" is done yet");
+        "m.toml:2: battery_low: is not done yet: leave it out");
+  CHECK(refusal_of("goal_m = [0, 1]\non_restart = \"hold\"") ==
+        "m.toml:2: on_restart: is not done yet: leave it out");
 }
 
 TEST_CASE("speed table: read in rising order, else refused with its line", "[config]") {

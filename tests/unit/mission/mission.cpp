@@ -261,6 +261,12 @@ TEST_CASE("mission: a lost link does what the mission says, once, and only if it
       CHECK(ordered.give(OperatorOrder::kResume, s(106)) == OrderAnswer::kObeyed);
       ordered.mission.watch_link(link, {{0, 2}}, s(107));
       CHECK(ordered.mission.under_way());
+      // Heard again, it may be lost again.
+      const CommandLink back{4, s(100), s(108)};
+      ordered.mission.watch_link(back, {{0, 2}}, s(109));
+      CHECK(ordered.mission.under_way());
+      ordered.mission.watch_link(back, {{0, 2}}, s(114));
+      CHECK(ordered.mission.holding());
     }
   }
 }

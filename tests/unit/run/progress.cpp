@@ -19,12 +19,13 @@ Scenario loop() {
   Scenario scenario;
   scenario.name = "loop";
   scenario.speed_m_s = 0.5;
+  MissionDefinition& mission = scenario.mission.definition;
   for (int i = 0; i < 2; ++i) {
     for (const auto& [x, y] : {std::pair{0.0, 10.0}, {10.0, 10.0}, {10.0, 0.0}, {0.0, 0.0}}) {
-      scenario.mission.waypoints.push_back({{x, y}});
+      mission.goals[mission.goal_count++] = {x, y};
     }
   }
-  scenario.mission.goal = {{0.0, 0.0}};
+  mission.goals[mission.goal_count++] = {0.0, 0.0};
   return scenario;
 }
 

@@ -16,8 +16,10 @@ namespace {
 
 Scenario straight() {
   Scenario scenario;
-  scenario.mission.waypoints = {{{0.0, 10.0}}};
-  scenario.mission.goal = {{10.0, 10.0}};
+  MissionDefinition& mission = scenario.mission.definition;
+  mission.goal_count = 2;
+  mission.goals[0] = {0.0, 10.0};
+  mission.goals[1] = {10.0, 10.0};
   scenario.vehicle_radius_m = 0.5;
   return scenario;
 }

@@ -28,9 +28,9 @@ TEST_CASE("scenario: every key of the format arrives where it belongs", "[hal_si
   CHECK(s.name == "a-good.one");
   CHECK(s.seed == 1);
   CHECK(s.time_limit_s == Approx(200.0));
-  CHECK(s.mission.goal.xy_m.y() == Approx(20.0));
-  CHECK(s.mission.goal_radius_m == Approx(0.5));
-  CHECK(s.mission.waypoints.empty());
+  CHECK(s.mission.goal().xy_m.y() == Approx(20.0));
+  CHECK(s.mission.definition.goal_radius_m == Approx(0.5));
+  CHECK(s.mission.waypoints().empty());
   CHECK(s.surge_ref == 16);
   CHECK(s.speed_m_s == Approx(0.22).epsilon(kSpeedTolerance));
   CHECK(s.vehicle_radius_m == Approx(0.5));
@@ -108,9 +108,9 @@ TEST_CASE("scenario: surge_ref stands for its steady speed, waypoints come in or
   const Scenario s = scenario_of(text);
   CHECK(s.surge_ref == 31);
   CHECK(s.speed_m_s == Approx(0.42).epsilon(kSpeedTolerance));
-  REQUIRE(s.mission.waypoints.size() == 2);
-  CHECK(s.mission.waypoints[0].xy_m.x() == Approx(2.0));
-  CHECK(s.mission.waypoints[1].xy_m.y() == Approx(9.0));
+  REQUIRE(s.mission.waypoints().size() == 2);
+  CHECK(s.mission.waypoints()[0].x_m == Approx(2.0));
+  CHECK(s.mission.waypoints()[1].y_m == Approx(9.0));
 }
 
 TEST_CASE("scenario: walls move by their first vertex and polygons close", "[hal_sim][scenario]") {

@@ -57,5 +57,17 @@ TEST_CASE("position task: a fix that is no place on earth is as if it had not co
   CHECK(position.latitudes_after_step() == Latitudes{36.0});
 }
 
+TEST_CASE("position task: without a receiver there are no fixes, and that is said",
+          "[low_level][tasks]") {
+  const auto board = std::make_unique<Blackboard>();
+  PositionTask task{*board, Role::kLow, nullptr};
+  task.step(kStart);
+  Reader<PositionFix> fixes{board->position_fix};
+  CHECK(fixes.latest() == nullptr);
+  Reader<DeviceHealth> health{board->device_health[static_cast<std::size_t>(DeviceId::kPosition)]};
+  REQUIRE(health.latest() != nullptr);
+  CHECK(health.latest()->value.status == DeviceStatus::kAbsent);
+}
+
 }  // namespace
 }  // namespace lodesman::testing

@@ -97,5 +97,41 @@ TEST_CASE("thruster task: made safe it is neutral whatever the helm said", "[low
   CHECK(int{thrusters.applied.latest()->value.left} == 128);
 }
 
+TEST_CASE("thruster task: without thrusters nothing is applied, and that is said",
+          "[low_level][tasks]") {
+  const auto board = std::make_unique<Blackboard>();
+  ThrusterTask task{*board, Role::kLow, nullptr};
+  Writer<HelmCommand> helm{board->helm_command, Role::kHigh, "helm_command"};
+  HelmCommand command;
+  command.reason = HelmReason::kTracking;
+  command.surge_ref = 40;
+  helm.publish(command, kStart);
+  task.step(kStart);
+  Reader<ThrustApplied> applied{board->thrust_applied};
+  CHECK(applied.latest()->value.reason == ThrustReason::kNoThrusters);
+  CHECK(applied.latest()->value.surge_ref == 0);
+  Reader<DeviceHealth> health{board->device_health[static_cast<std::size_t>(DeviceId::kThrusters)]};
+  CHECK(health.latest()->value.status == DeviceStatus::kAbsent);
+  task.enter_safe_state(kStart + milliseconds{1});
+  CHECK(applied.latest()->value.reason == ThrustReason::kNoThrusters);
+}
+
+TEST_CASE("thruster task: a box that goes and comes back is told of at once",
+          "[low_level][tasks]") {
+  Thrusters thrusters;
+  Reader<DeviceHealth> health{
+      thrusters.board->device_health[static_cast<std::size_t>(DeviceId::kThrusters)]};
+  (void)thrusters.after_step(kStart);
+  CHECK(health.latest()->value.status == DeviceStatus::kWorking);
+  thrusters.box.works = false;
+  (void)thrusters.after_step(kStart + milliseconds{50});
+  CHECK(health.latest()->value.status == DeviceStatus::kDisconnected);
+  CHECK(health.latest()->value.since == kStart + milliseconds{50});
+  thrusters.box.works = true;
+  (void)thrusters.after_step(kStart + milliseconds{100});
+  CHECK(health.latest()->value.status == DeviceStatus::kWorking);
+  CHECK(health.latest()->value.disconnections == 1);
+}
+
 }  // namespace
 }  // namespace lodesman::testing

@@ -209,5 +209,34 @@ TEST_CASE("world task: on the blackboard of a world that died the boat lies wher
   CHECK(successor.truth().heading_rad == Approx(last.heading_rad));
 }
 
+TEST_CASE("world task: round a real boat the world is where the estimate is, and tells no truth",
+          "[hal_sim][world]") {
+  const auto board = std::make_unique<Blackboard>();
+  const auto link = std::make_unique<SimLink>();
+  const Scenario scenario = scenario_of(kGoodScenario);
+  WorldTask task{scenario, shipped_vessel(), *board, *link, WorldTask::MovedBy::kEstimate};
+  Writer<VehicleState> states{board->vehicle_state, Role::kHigh, "vehicle_state"};
+  Reader<WorldSample> samples{link->world};
+  Reader<WorldTruth> truths{board->world_truth};
+  Time now{std::chrono::seconds{100}};
+  task.step(now);
+  CHECK(samples.latest() == nullptr);  // nobody knows where it is
+  VehicleState here;
+  here.valid_at = now;
+  here.x_m = 3.0;
+  here.y_m = -7.0;
+  here.heading_rad = 1.0;
+  states.publish(here, now);
+  task.step(now + milliseconds{20});
+  REQUIRE(samples.latest() != nullptr);
+  CHECK(samples.latest()->value.x_m == Approx(3.0));
+  CHECK(samples.latest()->value.y_m == Approx(-7.0));
+  CHECK(samples.latest()->value.heading_rad == Approx(1.0));
+  CHECK(samples.latest()->sequence == 1);
+  task.step(now + max_age::kVehicleState + milliseconds{1});
+  CHECK(samples.latest()->sequence == 1);  // nor any more
+  CHECK(truths.latest() == nullptr);
+}
+
 }  // namespace
 }  // namespace lodesman
