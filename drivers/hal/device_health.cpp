@@ -28,6 +28,14 @@ void DeviceHealthKeeper::polled(ReadStatus status, bool sane, Time now) noexcept
   heard_ = now;
 }
 
+void DeviceHealthKeeper::commanded(CommandStatus status, Time now) noexcept {
+  switch (status) {
+    case CommandStatus::kTaken: polled(ReadStatus::kFresh, true, now); break;
+    case CommandStatus::kNotReady: become(DeviceStatus::kAwaited, now); break;
+    case CommandStatus::kDisconnected: polled(ReadStatus::kDisconnected, true, now); break;
+  }
+}
+
 bool DeviceHealthKeeper::due(Time now) noexcept {
   if (!changed_ && now - told_ < kTellPeriod) {
     return false;

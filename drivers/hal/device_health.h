@@ -3,7 +3,7 @@
 // owns the device; it is handed the time and never blocks.
 #pragma once
 
-#include "drivers/hal/reading.h"
+#include "drivers/hal/devices.h"
 #include "mid_level/base/time.h"
 #include "mid_level/messages/health.h"
 
@@ -20,9 +20,12 @@ class DeviceHealthKeeper {
   void absent(Time now) noexcept { become(DeviceStatus::kAbsent, now); }
   // What one poll brought; `sane`: whether a fresh sample could be believed.
   void polled(ReadStatus status, bool sane, Time now) noexcept;
-  // Whether the device took a command.
-  void commanded(bool taken, Time now) noexcept {
-    polled(taken ? ReadStatus::kFresh : ReadStatus::kDisconnected, true, now);
+  // What became of a command. One that is not taken is no news of the device.
+  void commanded(CommandStatus status, Time now) noexcept;
+  // What it says ails it.
+  void ails(DeviceFault fault) noexcept {
+    changed_ |= health_.fault != fault;
+    health_.fault = fault;
   }
 
   // Whether there is something to tell: a new status, or a second has gone by. Asked once a step.

@@ -6,6 +6,7 @@
 #include "drivers/hal/reading.h"
 #include "mid_level/base/time.h"
 #include "mid_level/messages/command.h"
+#include "mid_level/messages/health.h"
 #include "mid_level/messages/sonar.h"
 #include "mid_level/messages/vehicle.h"
 
@@ -18,6 +19,9 @@ class Device {
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
   virtual ~Device() = default;
+
+  // What ails it, as far as it knows by its last poll or command.
+  [[nodiscard]] virtual DeviceFault fault() const noexcept { return DeviceFault::kNone; }
 };
 
 // An AHRS. True heading; samples are given once each, in the order they were measured.
@@ -39,12 +43,28 @@ class PositionSensor : public Device {
   [[nodiscard]] virtual Reading<PositionFix> poll(Time now) noexcept = 0;
 };
 
+// What became of a command to a thruster box.
+enum class CommandStatus : std::uint8_t {
+  kTaken,         // as far as it can be known, the thrusters run as commanded
+  kNotReady,      // the box is there and gets neutral: it is being tried, or is at fault
+  kDisconnected,  // it is gone; what it does by itself is to stop after its time-out
+};
+
+struct BatteryReading {
+  Time measured{};     // [ns] 0: never
+  double volts = 0.0;  // [V]
+};
+
 // Two thrusters behind one box. A command holds until the next one; the box stops both by itself
-// when none comes for its time-out.
+// when none comes for its time-out. It is commanded at every step of its task, neutral from the
+// beginning: a driver gets on with its start-up in these calls, and none of its commands is taken
+// until the box has been seen to stop by itself.
 class ThrusterPair : public Device {
  public:
-  // False when the box did not take the command.
-  [[nodiscard]] virtual bool command(ThrustCommand command, Time now) noexcept = 0;
+  [[nodiscard]] virtual CommandStatus command(ThrustCommand command, Time now) noexcept = 0;
+
+  // The newest that the box has told of the battery.
+  [[nodiscard]] virtual BatteryReading battery() const noexcept { return {}; }
 };
 
 }  // namespace lodesman

@@ -8,7 +8,7 @@ SimThrusterPair::SimThrusterPair(const Scenario& scenario, SimLink& link)
       world_{link.world},
       thrust_{link.thrust, Role::kLow, "simulated thrust"} {}
 
-bool SimThrusterPair::command(ThrustCommand command, Time now) noexcept {
+CommandStatus SimThrusterPair::command(ThrustCommand command, Time now) noexcept {
   const Stamped<WorldSample>* world = world_.latest();
   const FaultKind fault = world != nullptr && world->value.started != 0
                               ? faults_.at(world->value.scenario_time_s)
@@ -16,7 +16,7 @@ bool SimThrusterPair::command(ThrustCommand command, Time now) noexcept {
   if (fault == FaultKind::kNone) {
     thrust_.publish({command.left, command.right}, now);
   }
-  return fault != FaultKind::kDisconnect;
+  return fault == FaultKind::kDisconnect ? CommandStatus::kDisconnected : CommandStatus::kTaken;
 }
 
 }  // namespace lodesman

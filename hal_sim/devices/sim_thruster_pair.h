@@ -15,7 +15,7 @@ class SimThrusterPair final : public ThrusterPair {
  public:
   // The link must outlive the box. Throws StartupError when the link has a box already.
   SimThrusterPair(const Scenario& scenario, SimLink& link);
-  [[nodiscard]] bool command(ThrustCommand command, Time now) noexcept override;
+  [[nodiscard]] CommandStatus command(ThrustCommand command, Time now) noexcept override;
 
  private:
   FaultSchedule faults_;

@@ -43,6 +43,7 @@ bool DeltaTTask::take_ping(Time now) noexcept {
   const ReadStatus status = sonar_.poll(now, *ping_);
   const bool believed = status == ReadStatus::kFresh && sane(*ping_);
   device_.keeper().polled(status, believed, now);
+  device_.keeper().ails(sonar_.fault());
   if (!believed) {
     return false;
   }

@@ -25,6 +25,7 @@ void publish_all(Sensor& sensor, Writer<Sample>& writer, DeviceReport& device, T
       break;
     }
   }
+  device.keeper().ails(sensor.fault());
   device.publish(now);
 }
 

@@ -25,9 +25,10 @@ ThrustReason ThrusterTask::command(ThrustCommand thrust, Time now) noexcept {
     device_.keeper().absent(now);
     return ThrustReason::kNoThrusters;
   }
-  const bool taken = thrusters_->command(thrust, now);
-  device_.keeper().commanded(taken, now);
-  return taken ? ThrustReason::kCommanded : ThrustReason::kDeviceFailed;
+  const CommandStatus status = thrusters_->command(thrust, now);
+  device_.keeper().commanded(status, now);
+  device_.keeper().ails(thrusters_->fault());
+  return status == CommandStatus::kTaken ? ThrustReason::kCommanded : ThrustReason::kDeviceFailed;
 }
 
 // One look at the helm: what is fresh now stays so for this step.

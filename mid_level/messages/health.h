@@ -71,10 +71,49 @@ enum class DeviceStatus : std::uint8_t {
                                                      "corrupt", "refused", "disconnected");
 }
 
-// Written by the task that owns the device, at each change of its status and once a second; read by
-// displays and by the command socket.
+// What ails a device, as far as its driver knows: why it is as its status says, or, of one that
+// works, a warning.
+enum class DeviceFault : std::uint8_t {
+  kNone,
+  // Of the line.
+  kNoPort,        // there is no such port
+  kPortBusy,      // another program holds it
+  kNoPermission,  // this user may not open it
+  kNotAPort,      // it is there and is no serial port
+  kUnplugged,     // it went while it was used
+  kLineFull,      // it takes no more bytes
+  // Of the conversation.
+  kStarting,        // it is being asked who it is, and set
+  kNoAnswer,        // it says nothing that could be understood, at no speed
+  kWrongDevice,     // something else answers
+  kDoesNotFit,      // what was asked of it does not fit its line, or it has no such thing
+  kSettingRefused,  // it does not take its settings
+  // Of what a sensor says.
+  kSelfTestFailed,  // its own test says that it must not be used
+  kSelfTestWarning,
+  kFrozen,       // the same to the last bit, though the boat moves
+  kImplausible,  // whole, but it cannot be: by its own clock or its own rates
+  // Of a thruster box.
+  kProving,     // its own time-out is being tried
+  kWrongMode,   // it is there and obeys nothing: its serial mode is another
+  kNoTimeOut,   // it does not stop by itself when nobody speaks to it
+  kNotNeutral,  // it is not neutral where it has to be
+  kBoxError,    // it reports errors again and again
+  kBoxReset,    // it has forgotten what it was told
+};
+[[nodiscard]] constexpr auto enumerators(DeviceFault) noexcept {
+  return enumerators_to<DeviceFault::kBoxReset>(
+      "none", "no_port", "port_busy", "no_permission", "not_a_port", "unplugged", "line_full",
+      "starting", "no_answer", "wrong_device", "does_not_fit", "setting_refused",
+      "self_test_failed", "self_test_warning", "frozen", "implausible", "proving", "wrong_mode",
+      "no_time_out", "not_neutral", "box_error", "box_reset");
+}
+
+// Written by the task that owns the device, at each change of its status or fault and once a
+// second; read by displays and by the command socket.
 struct DeviceHealth {
   DeviceStatus status = DeviceStatus::kAwaited;
+  DeviceFault fault = DeviceFault::kNone;
   Time since{};                      // [ns] when it came to have that status
   std::uint64_t samples = 0;         // [-] whole ones so far, or commands taken
   std::uint64_t corrupt = 0;         // [-] that failed their check
@@ -83,9 +122,13 @@ struct DeviceHealth {
 
   static constexpr auto fields() noexcept {
     using D = DeviceHealth;
-    return std::tuple{field("status", &D::status),   field("since", &D::since),
-                      field("samples", &D::samples), field("corrupt", &D::corrupt),
-                      field("refused", &D::refused), field("disconnections", &D::disconnections)};
+    return std::tuple{field("status", &D::status),
+                      field("fault", &D::fault),
+                      field("since", &D::since),
+                      field("samples", &D::samples),
+                      field("corrupt", &D::corrupt),
+                      field("refused", &D::refused),
+                      field("disconnections", &D::disconnections)};
   }
 };
 

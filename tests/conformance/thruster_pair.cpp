@@ -21,7 +21,7 @@ TEMPLATE_LIST_TEST_CASE("thruster pair: takes and applies every command of both 
   for (int value = 0; value <= 255; ++value) {
     const ThrustCommand command{static_cast<std::uint8_t>(value),
                                 static_cast<std::uint8_t>(255 - value)};
-    REQUIRE(bench.device().command(command, bench.now()));
+    REQUIRE(bench.device().command(command, bench.now()) == CommandStatus::kTaken);
     bench.pass(milliseconds{50});
     CHECK(bench.applied() == command);
   }
@@ -31,15 +31,16 @@ TEMPLATE_LIST_TEST_CASE("thruster pair: a command holds, and falls at the time-o
                         "[conformance]", ThrusterPairs) {
   TestType bench;
   const ThrustCommand command{200, 60};
-  REQUIRE(bench.device().command(command, bench.now()));
+  REQUIRE(bench.device().command(command, bench.now()) == CommandStatus::kTaken);
   bench.pass(TestType::time_out() / 2);
   CHECK(bench.applied() == command);
-  REQUIRE(bench.device().command(command, bench.now()));  // arms the time-out anew
+  REQUIRE(bench.device().command(command, bench.now()) ==
+          CommandStatus::kTaken);  // sets the time-out anew
   bench.pass(TestType::time_out() * 3 / 4);
   CHECK(bench.applied() == command);
   bench.pass(TestType::time_out() / 2);
   CHECK(bench.applied() == kNeutralThrust);
-  REQUIRE(bench.device().command(command, bench.now()));
+  REQUIRE(bench.device().command(command, bench.now()) == CommandStatus::kTaken);
   bench.pass(milliseconds{50});
   CHECK(bench.applied() == command);
 }
@@ -48,21 +49,21 @@ TEMPLATE_LIST_TEST_CASE("thruster pair: a box that is gone says so, stops, and c
                         "[conformance]", ThrusterPairs) {
   TestType bench;
   const ThrustCommand command{200, 60};
-  REQUIRE(bench.device().command(command, bench.now()));
+  REQUIRE(bench.device().command(command, bench.now()) == CommandStatus::kTaken);
   bench.fail(BenchFault::kDisconnect);
-  bool taken = true;
+  CommandStatus status = CommandStatus::kTaken;
   for (Duration waited{}; waited <= 2 * TestType::time_out(); waited += milliseconds{50}) {
-    taken = bench.device().command(command, bench.now());
+    status = bench.device().command(command, bench.now());
     bench.pass(milliseconds{50});
   }
-  CHECK_FALSE(taken);
+  CHECK(status == CommandStatus::kDisconnected);
   CHECK(bench.applied() == kNeutralThrust);
   bench.mend();
-  for (int i = 0; i < 40 && !taken; ++i) {
-    taken = bench.device().command(command, bench.now());
+  for (int i = 0; i < 40 && status != CommandStatus::kTaken; ++i) {
+    status = bench.device().command(command, bench.now());
     bench.pass(milliseconds{50});
   }
-  CHECK(taken);
+  CHECK(status == CommandStatus::kTaken);
   CHECK(bench.applied() == command);
 }
 

@@ -23,8 +23,8 @@ constexpr Time kNow{std::chrono::seconds{100}};
 // A box that must never be handed what it did not ask for: it asks for nothing.
 class AnyThrusters final : public ThrusterPair {
  public:
-  [[nodiscard]] bool command(ThrustCommand /*command*/, Time /*now*/) noexcept override {
-    return true;
+  [[nodiscard]] CommandStatus command(ThrustCommand /*command*/, Time /*now*/) noexcept override {
+    return CommandStatus::kTaken;
   }
 };
 

@@ -55,7 +55,7 @@ TEST_CASE("world and simulated devices allocate nothing once made", "[hal_sim][d
     fresh += heading.poll(now).status == ReadStatus::kFresh ? 1 : 0;
     fresh += position.poll(now).status == ReadStatus::kFresh ? 1 : 0;
     fresh += sonar.poll(now, *ping) == ReadStatus::kFresh ? 1 : 0;
-    taken = box.command({200, 180}, now) && taken;
+    taken = box.command({200, 180}, now) == CommandStatus::kTaken && taken;
   }
   const std::uint64_t allocations = scope.count();
   CHECK(allocations == 0);

@@ -109,16 +109,16 @@ TEST_CASE("sim thrusters: a stalled box takes commands and lets them fall", "[ha
   SimThrusterPair box{scenario, world.link()};
   Reader<SimThrust> taken{world.link().thrust};
   world.step(milliseconds{500});
-  REQUIRE(box.command({200, 180}, world.now()));
+  REQUIRE(box.command({200, 180}, world.now()) == CommandStatus::kTaken);
   CHECK(thrust_at(taken, world.now()) == ThrustCommand{200, 180});
   world.step(milliseconds{700});
-  REQUIRE(box.command({10, 20}, world.now()));
+  REQUIRE(box.command({10, 20}, world.now()) == CommandStatus::kTaken);
   CHECK(thrust_at(taken, world.now()) == ThrustCommand{200, 180});
   world.step(milliseconds{400});
-  REQUIRE(box.command({10, 20}, world.now()));
+  REQUIRE(box.command({10, 20}, world.now()) == CommandStatus::kTaken);
   CHECK(thrust_at(taken, world.now()) == kNeutralThrust);
   world.step(milliseconds{2000});
-  REQUIRE(box.command({10, 20}, world.now()));
+  REQUIRE(box.command({10, 20}, world.now()) == CommandStatus::kTaken);
   CHECK(thrust_at(taken, world.now()) == ThrustCommand{10, 20});
 }
 

@@ -63,12 +63,12 @@ class ScriptedSonar final : public ImagingSonar {
 // Notes what it is commanded, and takes it or not.
 class ScriptedThrusters final : public ThrusterPair {
  public:
-  [[nodiscard]] bool command(ThrustCommand thrust, Time /*now*/) noexcept override {
+  [[nodiscard]] CommandStatus command(ThrustCommand thrust, Time /*now*/) noexcept override {
     last = thrust;
-    return works;
+    return status;
   }
 
-  bool works = true;
+  CommandStatus status = CommandStatus::kTaken;
   ThrustCommand last{1, 1};
 };
 

@@ -79,12 +79,12 @@ TEST_CASE("thruster task: a box that takes no command is said to have failed",
           "[low_level][tasks]") {
   Thrusters thrusters;
   thrusters.order(40, kStart);
-  thrusters.box.works = false;
+  thrusters.box.status = CommandStatus::kDisconnected;
   const ThrustApplied failed = thrusters.after_step(kStart);
   CHECK(failed.reason == ThrustReason::kDeviceFailed);
   CHECK(failed.surge_ref == 0);  // nobody may reckon with what was not done
   CHECK(int{failed.left} == 128);
-  thrusters.box.works = true;
+  thrusters.box.status = CommandStatus::kTaken;
   CHECK(thrusters.after_step(kStart + milliseconds{50}).reason == ThrustReason::kCommanded);
 }
 
@@ -123,11 +123,11 @@ TEST_CASE("thruster task: a box that goes and comes back is told of at once",
       thrusters.board->device_health[static_cast<std::size_t>(DeviceId::kThrusters)]};
   (void)thrusters.after_step(kStart);
   CHECK(health.latest()->value.status == DeviceStatus::kWorking);
-  thrusters.box.works = false;
+  thrusters.box.status = CommandStatus::kDisconnected;
   (void)thrusters.after_step(kStart + milliseconds{50});
   CHECK(health.latest()->value.status == DeviceStatus::kDisconnected);
   CHECK(health.latest()->value.since == kStart + milliseconds{50});
-  thrusters.box.works = true;
+  thrusters.box.status = CommandStatus::kTaken;
   (void)thrusters.after_step(kStart + milliseconds{100});
   CHECK(health.latest()->value.status == DeviceStatus::kWorking);
   CHECK(health.latest()->value.disconnections == 1);

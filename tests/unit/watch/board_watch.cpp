@@ -236,8 +236,9 @@ TEST_CASE("watch: a device is shown with its status, and since when", "[cli]") {
   Boat boat;
   Writer<DeviceHealth> heading{boat.board->device_health[0], Role::kLow, "heading"};
   Writer<DeviceHealth> position{boat.board->device_health[2], Role::kLow, "position"};
-  heading.publish({DeviceStatus::kDisconnected, kStart, 17, 2, 1, 3}, kStart);
-  position.publish({DeviceStatus::kAbsent, kStart, 0, 0, 0, 0}, kStart);
+  heading.publish({DeviceStatus::kDisconnected, DeviceFault::kUnplugged, kStart, 17, 2, 1, 3},
+                  kStart);
+  position.publish({DeviceStatus::kAbsent, DeviceFault::kNone, kStart, 0, 0, 0, 0}, kStart);
   BoardWatch watch{*boat.board};
   watch.poll(kStart + std::chrono::seconds{2});
   const SegmentState state{"lodesman-x", true, true, watch.state()};

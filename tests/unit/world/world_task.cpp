@@ -54,7 +54,7 @@ struct Bench {
 TEST_CASE("world task: before the mission the boat lies at its start and no time passes",
           "[hal_sim][world]") {
   Bench bench{"[environment]\ncurrent_m_s = [0.5, 0.0]\n"};
-  REQUIRE(bench.box.command({255, 255}, bench.now));
+  REQUIRE(bench.box.command({255, 255}, bench.now) == CommandStatus::kTaken);
   bench.run_for(std::chrono::seconds{2});
   const auto* truth = bench.truths.latest();
   REQUIRE(truth != nullptr);
@@ -110,7 +110,7 @@ TEST_CASE("world task: the boat moves by the box's last command, until the box's
   Bench bench;
   bench.start();
   for (int i = 0; i < 600; ++i) {
-    REQUIRE(bench.box.command({164, 164}, bench.now));
+    REQUIRE(bench.box.command({164, 164}, bench.now) == CommandStatus::kTaken);
     bench.run_for(milliseconds{20});
   }
   const double held_m_s = bench.task.truth().surge_m_s;
@@ -127,8 +127,8 @@ TEST_CASE("world task: late and missed steps lose no time", "[hal_sim][world]") 
   regular.start();
   late.start();
   for (int i = 0; i < 50; ++i) {
-    REQUIRE(regular.box.command({200, 180}, regular.now));
-    REQUIRE(late.box.command({200, 180}, late.now));
+    REQUIRE(regular.box.command({200, 180}, regular.now) == CommandStatus::kTaken);
+    REQUIRE(late.box.command({200, 180}, late.now) == CommandStatus::kTaken);
     regular.run_for(milliseconds{100});
     late.now += milliseconds{37};
     late.task.step(late.now);
@@ -181,7 +181,7 @@ TEST_CASE("world task: the truth says what the propellers run at, the box's time
           "[hal_sim][world]") {
   Bench bench;
   bench.start();
-  REQUIRE(bench.box.command({200, 90}, bench.now));
+  REQUIRE(bench.box.command({200, 90}, bench.now) == CommandStatus::kTaken);
   bench.run_for(kBoxTimeOut);
   CHECK(int{bench.truths.latest()->value.thrust_left} == 200);
   CHECK(int{bench.truths.latest()->value.thrust_right} == 90);
@@ -195,7 +195,7 @@ TEST_CASE("world task: on the blackboard of a world that died the boat lies wher
   Bench bench;
   bench.start();
   for (int i = 0; i < 10; ++i) {
-    REQUIRE(bench.box.command({255, 200}, bench.now));
+    REQUIRE(bench.box.command({255, 200}, bench.now) == CommandStatus::kTaken);
     bench.run_for(milliseconds{500});
   }
   const WorldTruth last = bench.truths.latest()->value;

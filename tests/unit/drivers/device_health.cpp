@@ -50,14 +50,23 @@ TEST_CASE("device health: one that never speaks, or no longer, is silent", "[dri
 
 TEST_CASE("device health: it is told at each change, and once a second", "[drivers]") {
   DeviceHealthKeeper keeper{from_seconds(10)};
-  keeper.commanded(true, s(0));
+  keeper.commanded(CommandStatus::kTaken, s(0));
   CHECK(keeper.due(s(0)));
   CHECK_FALSE(keeper.due(s(0.1)));
-  keeper.commanded(false, s(0.2));
+  keeper.commanded(CommandStatus::kDisconnected, s(0.2));
   CHECK(keeper.due(s(0.2)));
   CHECK_FALSE(keeper.due(s(1.1)));
   CHECK(keeper.due(s(1.2)));
   keeper.absent(s(1.3));
   CHECK(keeper.due(s(1.3)));
   CHECK(keeper.health().status == DeviceStatus::kAbsent);
+  keeper.commanded(CommandStatus::kNotReady, s(1.4));
+  keeper.ails(DeviceFault::kProving);
+  CHECK(keeper.due(s(1.4)));
+  CHECK(keeper.health().status == DeviceStatus::kAwaited);
+  CHECK(keeper.health().fault == DeviceFault::kProving);
+  keeper.ails(DeviceFault::kProving);
+  CHECK_FALSE(keeper.due(s(1.5)));
+  keeper.ails(DeviceFault::kNoTimeOut);
+  CHECK(keeper.due(s(1.6)));
 }
