@@ -184,6 +184,8 @@ class Catalogue {
 
 bool is_simulated(const BoatConfig& config) { return simulated_device(config.devices) != nullptr; }
 
+bool has_real_thrusters(const BoatConfig& config) { return is_real(config.devices.thrusters); }
+
 std::optional<Scenario> simulated_scenario(const BoatConfig& config) {
   require_addresses(config);
   const TomlTable table = config.document.root().table("simulation");

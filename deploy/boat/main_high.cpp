@@ -151,6 +151,7 @@ void sail(SharedBlackboard& board, const BoatConfig& config, const Voyage& voyag
   HighLevel high{board.writable(), Role::kHigh, high_level_options(config, voyage)};
   DeskOptions at_the_desk = desk_options(config, voyage);
   at_the_desk.starts_by_itself = start_by_itself;
+  at_the_desk.arms_by_itself |= start_by_itself;
   const WayIn way_in{board.writable(), config.command_socket, at_the_desk};
   const auto tasks = high.tasks();
   // Stopped, its tasks leave all safe; they go on where they stood.

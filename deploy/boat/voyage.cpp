@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/boat/voyage.h"
 
+#include "deploy/boat/assembled_boat.h"
+
 namespace lodesman {
 namespace {
 
@@ -61,6 +63,8 @@ DeskOptions desk_options(const BoatConfig& config, const Voyage& voyage) {
   options.origin = voyage.origin;
   options.speeds = config.speeds;
   options.at_hand = voyage.mission;
+  // Nothing real can turn.
+  options.arms_by_itself = !has_real_thrusters(config);
   const auto& pilot = config.high.planner.replanner.pilot;
   options.obeys_areas = pilot.has_value();
   options.tunables.speed_limit_m_s = config.speed_limit_m_s;

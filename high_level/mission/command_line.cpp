@@ -31,6 +31,10 @@ constexpr std::size_t kMaxName = 64;
                                                    : std::nullopt;
 }
 
+[[nodiscard]] bool is_reference(const nlohmann::json& value) {
+  return value.is_number_integer() && value >= -100 && value <= 100;
+}
+
 // A key of the wrong kind is worse than none: what was meant would not be done.
 [[nodiscard]] bool is_well_formed(const nlohmann::json& line) {
   const auto is_number = [](const nlohmann::json& value) { return value.is_number(); };
@@ -38,6 +42,9 @@ constexpr std::size_t kMaxName = 64;
          (!line.contains("mission") || line["mission"].is_string()) &&
          (!line.contains("name") || line["name"].is_string()) &&
          (!line.contains("force") || line["force"].is_boolean()) &&
+         (!line.contains("release") || line["release"].is_boolean()) &&
+         (!line.contains("surge") || is_reference(line["surge"])) &&
+         (!line.contains("head") || is_reference(line["head"])) &&
          (!line.contains("set") ||
           (line["set"].is_object() &&
            std::all_of(line["set"].begin(), line["set"].end(), is_number)));
@@ -62,6 +69,9 @@ CommandLine read_command_line(const std::string& text, const CommandTokens& toke
   request.name = text_of(line, "name").value_or("").substr(0, kMaxName);
   request.mission = text_of(line, "mission");
   request.force = line.value("force", false);
+  request.release = line.value("release", false);
+  request.surge_ref = line.value("surge", 0);
+  request.head_ref = line.value("head", 0);
   if (line.contains("set")) {
     for (const auto& [key, value] : line["set"].items()) {
       request.set[key] = value.get<double>();
@@ -75,6 +85,8 @@ std::string refusal(const std::string& reason) {
       -1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-bool stops_the_boat(const std::string& command) noexcept { return command == "abort"; }
+bool stops_the_boat(const std::string& command) noexcept {
+  return command == "abort" || command == "estop";
+}
 
 }  // namespace lodesman

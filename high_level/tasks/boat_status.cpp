@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "high_level/tasks/thrust_desk.h"
 #include "mid_level/base/heading.h"
 
 namespace lodesman {
@@ -25,12 +26,14 @@ void add_mission(const MissionStatus& m, Time now, ordered_json& reply) {
 
 }  // namespace
 
-BoatStatus::BoatStatus(const Blackboard& board)
-    : readiness_{board},
+BoatStatus::BoatStatus(const Blackboard& board, bool arms_by_itself)
+    : readiness_{board, arms_by_itself},
       mission_{board.mission_status},
       state_{board.vehicle_state},
       plan_{board.plan},
-      helm_{board.helm_command} {}
+      helm_{board.helm_command},
+      thrust_{board.thrust_status},
+      battery_{board.battery_status} {}
 
 void BoatStatus::add_to(ordered_json& reply, Time now) {
   if (const auto* mission = mission_.latest(); mission != nullptr) {
@@ -39,8 +42,27 @@ void BoatStatus::add_to(ordered_json& reply, Time now) {
       reply["not_ready"] = readiness_.reasons(now);
     }
   }
+  add_thrust(reply, now);
   add_place(reply, now);
   add_devices(reply, now);
+}
+
+void BoatStatus::add_thrust(ordered_json& reply, Time now) {
+  if (const auto* thrust = thrust_.fresh(now, max_age::kThrustStatus); thrust != nullptr) {
+    const ThrustStatus& t = thrust->value;
+    const auto* box = readiness_.device(DeviceId::kThrusters);
+    reply["thrust"] = {
+        {"state", to_string(t.state)},
+        {"cause", to_string(t.cause)},
+        {"for_s", to_seconds(now - t.since)},
+        {"against_arming", in_words(t.objections, box != nullptr ? &box->value : nullptr)}};
+  }
+  if (const auto* battery = battery_.fresh(now, max_age::kBatteryStatus);
+      battery != nullptr && battery->value.volts > 0.0) {
+    reply["battery"] = {{"level", to_string(battery->value.level)},
+                        {"volts", battery->value.volts},
+                        {"rest_volts", battery->value.rest_volts}};
+  }
 }
 
 void BoatStatus::add_place(ordered_json& reply, Time now) {
@@ -70,6 +92,10 @@ void BoatStatus::add_devices(ordered_json& reply, Time now) {
           {"status", to_string(h.status)}, {"for_s", to_seconds(now - h.since)},
           {"samples", h.samples},          {"corrupt", h.corrupt},
           {"refused", h.refused},          {"disconnections", h.disconnections}};
+      if (h.fault != DeviceFault::kNone) {
+        reply["devices"][to_string(id)]["fault"] = to_string(h.fault);
+        reply["devices"][to_string(id)]["means"] = describe(h.fault);
+      }
     }
   }
 }

@@ -11,12 +11,13 @@ namespace lodesman {
 
 class BoatStatus {
  public:
-  explicit BoatStatus(const Blackboard& board);
+  BoatStatus(const Blackboard& board, bool arms_by_itself);
 
   // Mission, place, plan, helm and devices, as far as they are known.
   void add_to(nlohmann::ordered_json& reply, Time now);
 
  private:
+  void add_thrust(nlohmann::ordered_json& reply, Time now);
   void add_place(nlohmann::ordered_json& reply, Time now);
   void add_devices(nlohmann::ordered_json& reply, Time now);
 
@@ -25,6 +26,8 @@ class BoatStatus {
   Reader<VehicleState> state_;
   Reader<Plan> plan_;
   Reader<HelmCommand> helm_;
+  Reader<ThrustStatus> thrust_;
+  Reader<BatteryStatus> battery_;
 };
 
 }  // namespace lodesman

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "high_level/guidance/areas.h"
-#include "mid_level/base/short_number.h"
+#include "high_level/tasks/tuning.h"
 
 namespace lodesman {
 namespace {
@@ -45,36 +45,13 @@ using nlohmann::ordered_json;
 }
 
 [[nodiscard]] Scope needed_for(const std::string& command) noexcept {
-  return command == "status"       ? Scope::kView
-         : stops_the_boat(command) ? Scope::kAbort
-                                   : Scope::kCommand;
+  return command == "status"                              ? Scope::kView
+         : stops_the_boat(command) || command == "disarm" ? Scope::kAbort
+                                                          : Scope::kCommand;
 }
 
 [[nodiscard]] std::span<const MissionArea> areas_of(const MissionDefinition& mission) noexcept {
   return {mission.areas.data(), mission.area_count};
-}
-
-// What may be tuned: its key in the configuration, its member, and what it may be.
-struct Tunable {
-  const char* key;
-  double Tunables::*member;
-  double least;
-  double most;
-};
-constexpr std::array<Tunable, 5> kTunables{{
-    {"mission.speed_limit_m_s", &Tunables::speed_limit_m_s, 0.01, 10.0},
-    {"zones.margin_m", &Tunables::margin_m, 0.0, 20.0},
-    {"pilot.side_gain_m", &Tunables::side_gain_m, 0.0, 100.0},
-    {"pilot.manoeuvre_gain_s", &Tunables::manoeuvre_gain_s, 0.0, 100.0},
-    {"control.heading_gain_per_deg", &Tunables::heading_gain_per_deg, 0.01, 100.0},
-}};
-
-[[nodiscard]] ordered_json json_of(const Tunables& tunables) {
-  ordered_json json{{"version", tunables.version}};
-  for (const Tunable& tunable : kTunables) {
-    json[tunable.key] = tunables.*tunable.member;
-  }
-  return json;
 }
 
 }  // namespace
@@ -84,7 +61,8 @@ OperatorDesk::OperatorDesk(Blackboard& board, Role role, DeskOptions options, No
       frame_{options_.origin},
       now_{std::move(now)},
       made_{now_()},
-      readiness_{board},
+      readiness_{board, options_.arms_by_itself},
+      thrust_{board, role, options_.arms_by_itself, now_},
       definitions_{writer_of(board, board.mission_definition, role)},
       orders_{writer_of(board, board.operator_command, role)},
       links_{writer_of(board, board.command_link, role)},
@@ -92,7 +70,7 @@ OperatorDesk::OperatorDesk(Blackboard& board, Role role, DeskOptions options, No
       at_hand_{board.mission_definition},
       mission_{board.mission_status},
       state_{board.vehicle_state},
-      boat_status_{board} {
+      boat_status_{board, options_.arms_by_itself} {
   // Goes on counting where a program that was here before has left off.
   Reader<OperatorCommand> before{board.operator_command};
   if (const auto* last = before.latest(); last != nullptr) {
@@ -183,11 +161,15 @@ Answer OperatorDesk::answer(const CommandRequest& request) {
   const auto at_once = [](std::string reply) {
     return [reply = std::move(reply)] { return reply; };
   };
-  if (request.scope < needed_for(command)) {
+  if (request.scope < needed_for(command) || (request.release && request.scope < Scope::kCommand)) {
     return at_once(refusal("this token is not good for " + command));
   }
-  if (stops_the_boat(command)) {
+  if (command == "abort") {
     return abort();
+  }
+  if ((command == "estop" && !request.release) || command == "disarm") {
+    end_mission();
+    return thrust_.order(request);
   }
   if (command == "status") {
     return at_once(status());
@@ -195,11 +177,16 @@ Answer OperatorDesk::answer(const CommandRequest& request) {
   if (command == "take" || command == "heartbeat" || command == "release") {
     return at_once(change_commander(request));
   }
-  if (command == "tune" || order_of(command) != OperatorOrder::kNone) {
+  const bool is_thrust = command == "arm" || command == "estop";
+  if (command == "tune" || command == "manual" || is_thrust ||
+      order_of(command) != OperatorOrder::kNone) {
     if (const auto no = commander_.objection(request.session, now_())) {
       return at_once(refusal(*no));
     }
-    return command == "tune" ? at_once(tune(request)) : order(request);
+    return command == "tune"     ? at_once(tune(request))
+           : command == "manual" ? at_once(manual(request))
+           : is_thrust           ? thrust_.order(request)
+                                 : order(request);
   }
   return at_once(refusal("unknown command: " + command));
 }
@@ -251,21 +238,8 @@ void OperatorDesk::publish_link() { links_.publish(commander_.link(), now_()); }
 
 std::string OperatorDesk::tune(const CommandRequest& request) {
   Tunables next = options_.tunables;
-  for (const auto& setting : request.set) {
-    const std::string& key = setting.first;
-    const double value = setting.second;
-    const auto* tunable = std::find_if(kTunables.begin(), kTunables.end(),
-                                       [&](const Tunable& t) { return t.key == key; });
-    if (tunable == kTunables.end()) {
-      return refusal(key + ": may not be changed under way");
-    }
-    const double least =
-        tunable->member == &Tunables::margin_m ? options_.least_margin_m : tunable->least;
-    if (!(value >= least && value <= tunable->most)) {
-      return refusal(key + ": must be from " + short_number(least) + " to " +
-                     short_number(tunable->most));
-    }
-    next.*tunable->member = value;
+  if (std::string no = tune_by(request.set, options_.least_margin_m, next); !no.empty()) {
+    return refusal(no);
   }
   if (!request.set.empty()) {
     ++next.version;
@@ -284,6 +258,32 @@ Answer OperatorDesk::abort() {
     orders_.publish({OperatorOrder::kAbort, aborts_}, given);
   }
   return [this, count = aborts_, given] { return reply_to_abort(count, given); };
+}
+
+// What is sailed without thrust must not go on where it stood once there is thrust again.
+void OperatorDesk::end_mission() {
+  const auto* mission = mission_.latest();
+  if (mission != nullptr && (mission->value.state == MissionState::kUnderWay ||
+                             mission->value.state == MissionState::kHolding)) {
+    static_cast<void>(abort());
+  }
+  options_.starts_by_itself = false;
+}
+
+// Whoever has the stick in hand has the boat: a mission under way waits where the stick leaves it.
+std::string OperatorDesk::manual(const CommandRequest& request) {
+  if (const auto no = thrust_.move_stick(request)) {
+    return refusal(*no);
+  }
+  look_at_mission();
+  options_.starts_by_itself = false;
+  const auto* mission = mission_.latest();
+  if (mission != nullptr && mission->value.state == MissionState::kUnderWay && !in_hand_ &&
+      !abort_is_on_its_way()) {
+    Order hold{OperatorOrder::kHold, now_(), aborts_};
+    publish(hold);
+  }
+  return ordered_json{{"ok", true}, {"state", to_string(ThrustState::kManual)}}.dump();
 }
 
 std::optional<std::string> OperatorDesk::reply_to_abort(std::uint64_t count, Time given) {
@@ -345,6 +345,9 @@ std::optional<std::string> OperatorDesk::take_turn(Order& order, const MissionSt
   }
   const Ruling ruling = ruling_on(order.order, mission.state);
   if (ruling.answer != OrderAnswer::kObeyed || (ruling.state == mission.state && !order.mission)) {
+    if (ruling.answer == OrderAnswer::kObeyed && order.order == OperatorOrder::kStart) {
+      thrust_.make_way();
+    }
     return reply_of(ruling.answer, mission.state);  // nothing to change: nothing to publish
   }
   publish(order);
@@ -354,6 +357,9 @@ std::optional<std::string> OperatorDesk::take_turn(Order& order, const MissionSt
 void OperatorDesk::publish(Order& order) {
   if (order.mission) {
     lay_out(*order.mission);
+  }
+  if (order.order == OperatorOrder::kStart || order.order == OperatorOrder::kResume) {
+    thrust_.make_way();
   }
   const MissionDefinition* definition = at_hand();
   const Time now = now_();

@@ -15,6 +15,7 @@
 #include "high_level/mission/mission.h"
 #include "high_level/tasks/boat_status.h"
 #include "high_level/tasks/readiness.h"
+#include "high_level/tasks/thrust_desk.h"
 #include "mid_level/base/geodesy.h"
 #include "mid_level/blackboard/blackboard.h"
 #include "mid_level/config/read_mission.h"
@@ -31,6 +32,7 @@ struct DeskOptions {
   // The mission at hand for a start that names none, unless one was given before.
   std::optional<MissionDefinition> at_hand{};
   bool starts_by_itself = false;  // that, once the boat is ready, unless somebody gives an order
+  bool arms_by_itself = false;    // a start arms the thrusters, if nothing speaks against it
 };
 
 class OperatorDesk {
@@ -66,6 +68,8 @@ class OperatorDesk {
 
   [[nodiscard]] std::string status();
   [[nodiscard]] Answer abort();
+  void end_mission();
+  [[nodiscard]] std::string manual(const CommandRequest& request);
   [[nodiscard]] Answer order(const CommandRequest& request);
   [[nodiscard]] std::string change_commander(const CommandRequest& request);
   [[nodiscard]] std::string tune(const CommandRequest& request);
@@ -90,6 +94,7 @@ class OperatorDesk {
   Time made_;
   Commander commander_;
   Readiness readiness_;
+  ThrustDesk thrust_;
   Writer<MissionDefinition> definitions_;
   Writer<OperatorCommand> orders_;
   Writer<CommandLink> links_;

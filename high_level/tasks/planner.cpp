@@ -14,7 +14,8 @@ namespace {
 constexpr double kStay_m = 1.5;  // a place to wait at is kept within this
 
 [[nodiscard]] bool has_no_thrust(ThrustReason reason) noexcept {
-  return reason == ThrustReason::kDeviceFailed || reason == ThrustReason::kNoThrusters;
+  return reason == ThrustReason::kDeviceFailed || reason == ThrustReason::kNoThrusters ||
+         reason == ThrustReason::kDisarmed || reason == ThrustReason::kStopped;
 }
 
 // A frame is given its full age before its absence counts.

@@ -2,14 +2,19 @@
 #include "high_level/tasks/readiness.h"
 
 #include <cstdio>
+#include <utility>
+
+#include "high_level/tasks/thrust_desk.h"
 
 namespace lodesman {
 
-Readiness::Readiness(const Blackboard& board)
-    : attitude_{board.attitude},
+Readiness::Readiness(const Blackboard& board, bool arms_by_itself)
+    : arms_by_itself_{arms_by_itself},
+      attitude_{board.attitude},
       state_{board.vehicle_state},
       obstacles_{board.sonar_obstacles},
       thrust_{board.thrust_applied},
+      arming_{board.thrust_status},
       devices_{Reader<DeviceHealth>{board.device_health[0]},
                Reader<DeviceHealth>{board.device_health[1]},
                Reader<DeviceHealth>{board.device_health[2]},
@@ -28,12 +33,7 @@ std::string Readiness::lacking(const char* what, DeviceId id, Time now) {
 
 std::vector<std::string> Readiness::reasons(Time now) {
   std::vector<std::string> reasons;
-  const auto* thrust = thrust_.fresh(now, max_age::kThrustApplied);
-  if (thrust == nullptr) {
-    reasons.emplace_back("the low level is silent");
-  } else if (thrust->value.reason == ThrustReason::kDeviceFailed) {
-    reasons.push_back(lacking("thrusters", DeviceId::kThrusters, now));
-  }
+  add_thrust(reasons, now);
   if (attitude_.fresh(now, max_age::kAttitude) == nullptr) {
     reasons.push_back(lacking("heading", DeviceId::kHeading, now));
   }
@@ -44,6 +44,34 @@ std::vector<std::string> Readiness::reasons(Time now) {
     reasons.push_back(lacking("sonar frame", DeviceId::kSonar, now));
   }
   return reasons;
+}
+
+// A boat that has no thrusters sails dry: that is no reason.
+void Readiness::add_thrust(std::vector<std::string>& reasons, Time now) {
+  const auto* thrust = thrust_.fresh(now, max_age::kThrustApplied);
+  const auto* arming = arming_.fresh(now, max_age::kThrustStatus);
+  if (thrust == nullptr || arming == nullptr) {
+    reasons.emplace_back("the low level is silent");
+    return;
+  }
+  if (thrust->value.reason == ThrustReason::kNoThrusters) {
+    return;
+  }
+  std::uint32_t objections = arming->value.objections;
+  if ((objections & bit(ArmObjection::kBoxGone)) != 0) {
+    reasons.push_back(lacking("thrusters", DeviceId::kThrusters, now));
+    objections &= ~bit(ArmObjection::kBoxGone);
+  }
+  const ThrustState state = arming->value.state;
+  if (state == ThrustState::kArmed || state == ThrustState::kManual) {
+    objections &= bit(ArmObjection::kBoxNotReady);  // the others are for arming
+  } else if (state == ThrustState::kDisarmed && !arms_by_itself_) {
+    reasons.emplace_back("the thrusters are disarmed (lodesman arm)");
+  }
+  const auto* box = device(DeviceId::kThrusters);
+  for (std::string& words : in_words(objections, box != nullptr ? &box->value : nullptr)) {
+    reasons.push_back(std::move(words));
+  }
 }
 
 }  // namespace lodesman

@@ -13,7 +13,8 @@ namespace lodesman {
 
 class Readiness {
  public:
-  explicit Readiness(const Blackboard& board);
+  // `arms_by_itself`: a start arms thrusters that are disarmed and may be armed.
+  Readiness(const Blackboard& board, bool arms_by_itself);
 
   // Every reason not to start at `now`; none: it may.
   [[nodiscard]] std::vector<std::string> reasons(Time now);
@@ -25,11 +26,15 @@ class Readiness {
  private:
   // "no heading", and what its device says of it.
   [[nodiscard]] std::string lacking(const char* what, DeviceId device, Time now);
+  void add_thrust(std::vector<std::string>& reasons, Time now);
+
+  bool arms_by_itself_;
 
   Reader<Attitude> attitude_;
   Reader<VehicleState> state_;
   Reader<SonarObstacles> obstacles_;
   Reader<ThrustApplied> thrust_;
+  Reader<ThrustStatus> arming_;
   std::array<Reader<DeviceHealth>, kDeviceCount> devices_;
 };
 

@@ -13,7 +13,7 @@ LowLevel::LowLevel(Blackboard& board, Role role, LowLevelDevices devices, LowLev
       position_{board, role, devices_.position.get()},
       delta_t_{board, role, *devices_.sonar, std::move(options.delta_t)},
       path_finder_{board, role},
-      thruster_{board, role, devices_.thrusters.get()} {}
+      thruster_{board, role, devices_.thrusters.get(), options.thruster} {}
 
 std::vector<TaskEntry> LowLevel::tasks() {
   return {scheduled(TaskId::kAhrs, ahrs_), scheduled(TaskId::kPosition, position_),

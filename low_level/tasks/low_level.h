@@ -23,6 +23,7 @@ struct LowLevelDevices {
 
 struct LowLevelOptions {
   DeltaTOptions delta_t;
+  ThrusterOptions thruster;
 };
 
 class LowLevel {

@@ -4,35 +4,106 @@
 #include "low_level/thrust/thrust_map.h"
 
 namespace lodesman {
+namespace {
 
-void ThrusterTask::step(Time now) noexcept {
-  ThrustApplied wanted = as_commanded(now);
-  const ThrustCommand thrust = map_thrust(wanted.surge_ref, wanted.head_ref);
-  wanted.left = thrust.left;
-  wanted.right = thrust.right;
-  if (const ThrustReason done = command(thrust, now); done != ThrustReason::kCommanded) {
-    // Nobody downstream may reckon with it.
-    wanted = ThrustApplied{};
-    wanted.reason = done;
-  }
-  applied_.publish(wanted, now);
-  device_.publish(now);
+constexpr Duration kBatteryPeriod = std::chrono::seconds{1};
+
+// The share of full load: thrust, and with it current, grows with the square of the command.
+[[nodiscard]] double load_of(ThrustCommand thrust) noexcept {
+  const auto share = [](std::uint8_t command) noexcept {
+    const double offset = (static_cast<double>(command) - 127.5) / 127.5;
+    return offset * offset;
+  };
+  return (share(thrust.left) + share(thrust.right)) / 2.0;
 }
 
-// kCommanded where the box took it, else why it did not.
-ThrustReason ThrusterTask::command(ThrustCommand thrust, Time now) noexcept {
-  if (thrusters_ == nullptr) {
-    device_.keeper().absent(now);
-    return ThrustReason::kNoThrusters;
+}  // namespace
+
+void ThrusterTask::step(Time now) noexcept {
+  if (!begun_) {
+    begin(now);
   }
-  const CommandStatus status = thrusters_->command(thrust, now);
-  device_.keeper().commanded(status, now);
-  device_.keeper().ails(thrusters_->fault());
-  return status == CommandStatus::kTaken ? ThrustReason::kCommanded : ThrustReason::kDeviceFailed;
+  look(now);
+  obey_orders(now);
+  ThrustApplied applied = wanted(now);
+  const ThrustCommand thrust = map_thrust(applied.surge_ref, applied.head_ref);
+  applied.left = thrust.left;
+  applied.right = thrust.right;
+  if (const ThrustReason done = command(thrust, now); done != ThrustReason::kCommanded) {
+    // Nobody downstream may reckon with it.
+    applied = ThrustApplied{};
+    applied.reason = done;
+  }
+  status_.publish(arming_.status(), now);
+  applied_.publish(applied, now);
+  device_.publish(now);
+  watch_battery({applied.left, applied.right}, now);
+}
+
+// What stands on the blackboard from before is known once there is a time to judge it by.
+void ThrusterTask::begin(Time now) noexcept {
+  begun_ = true;
+  const auto* order = orders_.latest();
+  const std::uint64_t stops = order != nullptr ? order->value.stops : 0;
+  if (const auto* before = before_.latest(); before != nullptr) {
+    arming_.remember(before->value, stops, now - before->stamp, now);
+    obeyed_ = before->value.order;
+  }
+  if (stop_is_latched_) {
+    arming_.latch(now);
+  }
+}
+
+void ThrusterTask::look(Time now) noexcept {
+  ArmingView view;
+  if (thrusters_ != nullptr) {
+    view.box = box_ == CommandStatus::kTaken      ? ArmingView::Box::kReady
+               : box_ == CommandStatus::kNotReady ? ArmingView::Box::kNotReady
+                                                  : ArmingView::Box::kGone;
+  }
+  if (const auto* helm = helm_.fresh(now, max_age::kHelmCommand); helm != nullptr) {
+    view.high_is_heard = true;
+    view.helm_is_at_rest = helm->value.surge_ref == 0 && helm->value.head_ref == 0;
+  }
+  if (const auto* stick = stick_.fresh(now, max_age::kManualInput); stick != nullptr) {
+    view.stick = stick->stamp;
+    view.stick_is_at_rest = stick->value.surge_ref == 0 && stick->value.head_ref == 0;
+  }
+  if (const auto* mission = mission_.latest();
+      mission != nullptr && mission->value.state == MissionState::kAborted) {
+    view.aborted = mission->value.ended;
+  }
+  view.battery_is_critical = battery_.status().level == BatteryLevel::kCritical;
+  arming_.look(view, now);
+}
+
+void ThrusterTask::obey_orders(Time now) noexcept {
+  const std::uint64_t newest = orders_.newest_sequence();
+  if (newest <= obeyed_) {
+    return;
+  }
+  // One that waits for its answer is the newest: the command socket gives one at a time, but for
+  // stops, and those are counted.
+  const auto* order = orders_.latest();
+  if (order != nullptr && order->sequence > obeyed_) {
+    obeyed_ = order->sequence;
+    arming_.obey(order->value, order->sequence, order->stamp, now);
+  }
+}
+
+ThrustApplied ThrusterTask::wanted(Time now) noexcept {
+  ThrustApplied neutral;
+  switch (arming_.status().state) {
+    case ThrustState::kArmed: return by_helm(now);
+    case ThrustState::kManual: return by_stick(now);
+    case ThrustState::kDisarmed: neutral.reason = ThrustReason::kDisarmed; break;
+    case ThrustState::kStopped: neutral.reason = ThrustReason::kStopped; break;
+  }
+  return neutral;
 }
 
 // One look at the helm: what is fresh now stays so for this step.
-ThrustApplied ThrusterTask::as_commanded(Time now) noexcept {
+ThrustApplied ThrusterTask::by_helm(Time now) noexcept {
   ThrustApplied applied;
   const auto* helm = helm_.fresh(now, max_age::kHelmCommand);
   if (helm == nullptr) {
@@ -48,6 +119,46 @@ ThrustApplied ThrusterTask::as_commanded(Time now) noexcept {
   applied.plan_id = helm->value.plan_id;
   applied.plan_captured = helm->value.plan_captured;
   return applied;
+}
+
+// A stick that was silent for a while is not believed where it last was.
+ThrustApplied ThrusterTask::by_stick(Time now) noexcept {
+  ThrustApplied applied;
+  applied.reason = ThrustReason::kStickSilent;
+  const auto* stick = stick_.fresh(now, max_age::kManualInput);
+  if (stick != nullptr && stick->stamp > arming_.status().armed) {
+    applied.reason = ThrustReason::kManual;
+    applied.surge_ref = stick->value.surge_ref;
+    applied.head_ref = stick->value.head_ref;
+    applied.command_stamp = stick->stamp;
+  }
+  return applied;
+}
+
+// kCommanded where the box took it, else why it did not.
+ThrustReason ThrusterTask::command(ThrustCommand thrust, Time now) noexcept {
+  if (thrusters_ == nullptr) {
+    device_.keeper().absent(now);
+    return ThrustReason::kNoThrusters;
+  }
+  box_ = thrusters_->command(thrust, now);
+  device_.keeper().commanded(box_, now);
+  device_.keeper().ails(thrusters_->fault());
+  return box_ == CommandStatus::kTaken ? ThrustReason::kCommanded : ThrustReason::kDeviceFailed;
+}
+
+void ThrusterTask::watch_battery(ThrustCommand thrust, Time now) noexcept {
+  if (thrusters_ == nullptr) {
+    return;
+  }
+  const BatteryReading reading = thrusters_->battery();
+  battery_.look(reading.volts, reading.measured, load_of(thrust), now);
+  const BatteryStatus& status = battery_.status();
+  if (status.level != told_level_ || now - battery_told_ >= kBatteryPeriod) {
+    told_level_ = status.level;
+    battery_told_ = now;
+    battery_out_.publish(status, now);
+  }
 }
 
 void ThrusterTask::enter_safe_state(Time now) noexcept {

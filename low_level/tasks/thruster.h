@@ -1,37 +1,76 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Thruster task: turns the helm's references into thrust commands (eqs 13-14) and hands them to
-// the box; neutral whenever the helm has fallen silent, in every mode. What the box did not take is
-// reported as not done.
+// The Thruster task: turns the references of helm or stick into thrust commands (eqs 13-14) and
+// hands them to the box, as far as the thrusters are armed; neutral whenever whoever commands has
+// fallen silent, in every mode. What the box did not take is reported as not done.
 // Stepped by its runner's thread.
 #pragma once
 
 #include "drivers/hal/devices.h"
 #include "low_level/tasks/device_report.h"
+#include "low_level/thrust/arming.h"
+#include "low_level/thrust/battery.h"
 #include "mid_level/runtime/task.h"
 
 namespace lodesman {
 
+struct ThrusterOptions {
+  BatteryOptions battery;
+  bool stop_is_latched = false;  // an emergency stop from before the power was off
+};
+
 class ThrusterTask final : public Task {
  public:
-  // Without thrusters nothing is applied, and that is said.
-  ThrusterTask(Blackboard& board, Role role, ThrusterPair* thrusters)
+  // Without thrusters nothing is applied, and that is said. On a blackboard that a low level left
+  // shortly before, they are armed if that had them armed.
+  ThrusterTask(Blackboard& board, Role role, ThrusterPair* thrusters,
+               const ThrusterOptions& options = {})
       : thrusters_{thrusters},
         helm_{board.helm_command},
+        mission_{board.mission_status},
+        orders_{board.thrust_order},
+        stick_{board.manual_input},
+        before_{board.thrust_status},
+        status_{writer_of(board, board.thrust_status, role)},
         applied_{writer_of(board, board.thrust_applied, role)},
-        device_{board, role, DeviceId::kThrusters, max_age::kThrustApplied} {}
+        battery_out_{writer_of(board, board.battery_status, role)},
+        device_{board, role, DeviceId::kThrusters, max_age::kThrustApplied},
+        battery_{options.battery},
+        stop_is_latched_{options.stop_is_latched} {}
 
   void step(Time now) noexcept override;
-  [[nodiscard]] std::uint64_t refused() const noexcept override { return helm_.refused(); }
+  [[nodiscard]] std::uint64_t refused() const noexcept override {
+    return refused_by(helm_, orders_, stick_);
+  }
   void enter_safe_state(Time now) noexcept override;
 
  private:
-  [[nodiscard]] ThrustApplied as_commanded(Time now) noexcept;
+  void begin(Time now) noexcept;
+  void look(Time now) noexcept;
+  void obey_orders(Time now) noexcept;
+  [[nodiscard]] ThrustApplied wanted(Time now) noexcept;
+  [[nodiscard]] ThrustApplied by_helm(Time now) noexcept;
+  [[nodiscard]] ThrustApplied by_stick(Time now) noexcept;
   [[nodiscard]] ThrustReason command(ThrustCommand thrust, Time now) noexcept;
+  void watch_battery(ThrustCommand thrust, Time now) noexcept;
 
   ThrusterPair* thrusters_;
   Reader<HelmCommand> helm_;
+  Reader<MissionStatus> mission_;
+  Reader<ThrustOrder> orders_;
+  Reader<ManualInput> stick_;
+  Reader<ThrustStatus> before_;
+  Writer<ThrustStatus> status_;
   Writer<ThrustApplied> applied_;
+  Writer<BatteryStatus> battery_out_;
   DeviceReport device_;
+  Arming arming_;
+  BatteryMonitor battery_;
+  bool stop_is_latched_;
+  bool begun_ = false;
+  CommandStatus box_ = CommandStatus::kNotReady;  // to the last command
+  std::uint64_t obeyed_ = 0;                      // sequence of the last order that was taken
+  BatteryLevel told_level_ = BatteryLevel::kUnknown;
+  Time battery_told_{};
 };
 
 }  // namespace lodesman

@@ -10,6 +10,7 @@
 #include "mid_level/blackboard/bell.h"
 #include "mid_level/blackboard/channel.h"
 #include "mid_level/blackboard/wake_edges.h"
+#include "mid_level/messages/arming.h"
 #include "mid_level/messages/command.h"
 #include "mid_level/messages/health.h"
 #include "mid_level/messages/mission.h"
@@ -30,7 +31,10 @@ inline constexpr Duration kVehicleState = milliseconds{400};
 inline constexpr Duration kSonarFrame = milliseconds{2000};
 inline constexpr Duration kMissionStatus = milliseconds{400};
 inline constexpr Duration kHelmCommand = milliseconds{300};
+inline constexpr Duration kManualInput = milliseconds{500};
+inline constexpr Duration kThrustStatus = milliseconds{500};
 inline constexpr Duration kThrustApplied = milliseconds{500};
+inline constexpr Duration kBatteryStatus = milliseconds{3000};
 inline constexpr Duration kDeviceHealth = milliseconds{3000};
 inline constexpr Duration kNoLimit{};
 }  // namespace max_age
@@ -52,7 +56,11 @@ struct Blackboard {
   Channel<Tunables, 4> tunables;
   Channel<MissionStatus, 64> mission_status;
   Channel<HelmCommand, 64> helm_command;
+  Channel<ThrustOrder, 8> thrust_order;
+  Channel<ManualInput, 16> manual_input;
+  Channel<ThrustStatus, 64> thrust_status;
   Channel<ThrustApplied, 64> thrust_applied;
+  Channel<BatteryStatus, 4> battery_status;
   std::array<Channel<DeviceHealth, 4>, kDeviceCount> device_health;
   std::array<Channel<TaskHealth, 2>, kTaskCount> task_health;
   std::array<Bell<>, kTaskCount> bells;  // no channel: rung by writers, waited for by their tasks
@@ -109,8 +117,16 @@ void for_each_channel(Board& board, Visit visit) {
         board.mission_status);
   visit(ChannelInfo{"helm_command", Role::kHigh, "controller", max_age::kHelmCommand},
         board.helm_command);
+  visit(ChannelInfo{"thrust_order", Role::kHigh, "command socket", max_age::kNoLimit},
+        board.thrust_order);
+  visit(ChannelInfo{"manual_input", Role::kHigh, "command socket", max_age::kManualInput},
+        board.manual_input);
+  visit(ChannelInfo{"thrust_status", Role::kLow, "thruster", max_age::kThrustStatus},
+        board.thrust_status);
   visit(ChannelInfo{"thrust_applied", Role::kLow, "thruster", max_age::kThrustApplied},
         board.thrust_applied);
+  visit(ChannelInfo{"battery_status", Role::kLow, "thruster", max_age::kBatteryStatus},
+        board.battery_status);
   for (std::size_t i = 0; i < kDeviceCount; ++i) {
     const DeviceInfo& info = kDeviceInfo[i];
     visit(ChannelInfo{info.channel, Role::kLow, info.task, max_age::kDeviceHealth},

@@ -40,9 +40,16 @@ struct WakeEdge {
   WakeWhen when = WakeWhen::kPublished;
 };
 
-// What comes from outside of the tasks: the command socket's order.
-inline constexpr std::string_view kOrders = "operator_command";
-inline constexpr TaskId kOrdersWake = TaskId::kPlanner;
+// What comes from outside of the tasks: the words of the command socket.
+struct OrderEdge {
+  std::string_view channel;
+  TaskId wakes = TaskId::kPlanner;
+};
+inline constexpr std::array kOrderEdges{
+    OrderEdge{"operator_command", TaskId::kPlanner},
+    OrderEdge{"thrust_order", TaskId::kThruster},
+    OrderEdge{"manual_input", TaskId::kThruster},
+};
 // The simulated devices' end of the world (hal_sim/world/sim_link.h), which is no channel here.
 inline constexpr std::string_view kSimDevices = "sim:";
 
@@ -88,8 +95,10 @@ static_assert(!wakes_go_round());
 
 // Whom a publication on that channel wakes.
 [[nodiscard]] constexpr bool wakes(std::string_view channel, TaskId task) noexcept {
-  if (channel == kOrders) {
-    return task == kOrdersWake;
+  for (const OrderEdge& edge : kOrderEdges) {
+    if (edge.channel == channel && edge.wakes == task) {
+      return true;
+    }
   }
   for (const WakeEdge& edge : kWakeEdges) {
     if (edge.channel == channel && edge.wakes == task) {

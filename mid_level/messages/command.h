@@ -290,10 +290,15 @@ enum class ThrustReason : std::uint8_t {
   kStaleCommand,  // the helm has fallen silent: neutral
   kDeviceFailed,  // the thruster box does not take commands
   kNoThrusters,   // the configuration has none
+  kDisarmed,      // nobody has armed the thrusters: neutral
+  kStopped,       // the emergency stop: neutral
+  kManual,        // the thrusters run as the stick says
+  kStickSilent,   // the stick has fallen silent: neutral
 };
 [[nodiscard]] constexpr auto enumerators(ThrustReason) noexcept {
-  return enumerators_to<ThrustReason::kNoThrusters>("commanded", "no_command", "stale_command",
-                                                    "device_failed", "no_thrusters");
+  return enumerators_to<ThrustReason::kStickSilent>("commanded", "no_command", "stale_command",
+                                                    "device_failed", "no_thrusters", "disarmed",
+                                                    "stopped", "manual", "stick_silent");
 }
 
 // Written by the thruster task at 20 Hz, after the box took the command; where it took none, all is

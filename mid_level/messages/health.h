@@ -109,6 +109,39 @@ enum class DeviceFault : std::uint8_t {
       "no_time_out", "not_neutral", "box_error", "box_reset");
 }
 
+// The same in words, for an operator: what it is and, where it is plain, what mends it.
+[[nodiscard]] constexpr const char* describe(DeviceFault fault) noexcept {
+  switch (fault) {
+    case DeviceFault::kNone: return "";
+    case DeviceFault::kNoPort: return "there is no such port";
+    case DeviceFault::kPortBusy: return "another program holds the port";
+    case DeviceFault::kNoPermission:
+      return "this user may not open the port (lodesman doctor says how)";
+    case DeviceFault::kNotAPort: return "what lies at its address is no serial port";
+    case DeviceFault::kUnplugged: return "unplugged";
+    case DeviceFault::kLineFull: return "it takes no more bytes";
+    case DeviceFault::kStarting: return "it is being asked who it is";
+    case DeviceFault::kNoAnswer: return "it says nothing that could be understood";
+    case DeviceFault::kWrongDevice: return "another device answers";
+    case DeviceFault::kDoesNotFit: return "what is asked of it does not fit its line";
+    case DeviceFault::kSettingRefused: return "it refuses its settings";
+    case DeviceFault::kSelfTestFailed: return "its own test has failed";
+    case DeviceFault::kSelfTestWarning: return "its own test gives a warning";
+    case DeviceFault::kFrozen: return "it says the same again and again";
+    case DeviceFault::kImplausible: return "what it says cannot be";
+    case DeviceFault::kProving: return "its time-out is being tried";
+    case DeviceFault::kWrongMode:
+      return "it obeys nothing: set its serial mode to USB Dual Port with the maker's program";
+    case DeviceFault::kNoTimeOut:
+      return "it does not stop by itself: set its serial time-out to 0.5 s";
+    case DeviceFault::kNotNeutral:
+      return "it is not neutral after its time-out: set its error action to go to 1500 us";
+    case DeviceFault::kBoxError: return "it reports errors again and again";
+    case DeviceFault::kBoxReset: return "it has forgotten what it was told";
+  }
+  return "";
+}
+
 // Written by the task that owns the device, at each change of its status or fault and once a
 // second; read by displays and by the command socket.
 struct DeviceHealth {

@@ -27,12 +27,15 @@ void spoil(const std::string& segment) {
 
 bool is_neutral(const HelmCommand& helm) { return helm.surge_ref == 0 && helm.head_ref == 0; }
 
-// Whether a process has come so far that it keeps SIGTERM for itself.
+// Whether a process has come so far that it keeps SIGTERM for itself. One that has only been forked
+// may do so too, for a moment: it bears the name of this program still.
 bool heeds_stop(pid_t process) {
   std::ifstream status{"/proc/" + std::to_string(process) + "/status"};
+  bool is_itself = false;
   for (std::string line; std::getline(status, line);) {
+    is_itself |= line.starts_with("Name:") && line.ends_with("lodesman-high");
     if (line.starts_with("SigBlk:")) {
-      return (std::stoull(line.substr(7), nullptr, 16) & (1ULL << (SIGTERM - 1))) != 0;
+      return is_itself && (std::stoull(line.substr(7), nullptr, 16) & (1ULL << (SIGTERM - 1))) != 0;
     }
   }
   return false;

@@ -10,6 +10,7 @@
 #include "deploy/operator/cli/plan_command.h"
 #include "deploy/operator/cli/segment_command.h"
 #include "deploy/operator/cli/sim_command.h"
+#include "deploy/operator/cli/thrust_commands.h"
 #include "deploy/operator/cli/watch_command.h"
 
 int main(int argc, char** argv) {
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   int exit_status = 0;
   cli::add_sim_command(app, exit_status);
   cli::add_operator_commands(app, exit_status);
+  cli::add_thrust_commands(app, exit_status);
   cli::add_segment_command(app, exit_status);
   cli::add_plan_command(app, exit_status);
   cli::add_check_command(app, exit_status);

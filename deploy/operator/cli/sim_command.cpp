@@ -213,6 +213,9 @@ class RunOutput {
   write_whole_file(directory / "config.toml", configuration.to_text());
   write_whole_file(directory / "scenario.toml", scenario_text);
 
+  if (!options.wait_start && !options.common.quiet) {
+    fmt::print(stderr, "the thrusters are simulated: armed by the launcher\n");
+  }
   catch_stop_signals();
   remove_dead_runs();
   RunOutput output{options, configuration, scenario, directory};

@@ -45,8 +45,10 @@ std::string woken_by(TaskId task) {
       add(edge.channel);
     }
   }
-  if (task == kOrdersWake) {
-    add(kOrders);
+  for (const OrderEdge& edge : kOrderEdges) {
+    if (edge.wakes == task) {
+      add(edge.channel);
+    }
   }
   return names.empty() ? "-" : names;
 }

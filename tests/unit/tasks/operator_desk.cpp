@@ -21,6 +21,12 @@ CommandRequest request(const std::string& command, std::uint64_t session = 1) {
   return request;
 }
 
+ThrustStatus armed() {
+  ThrustStatus status;
+  status.state = ThrustState::kArmed;
+  return status;
+}
+
 DeskOptions with_a_mission() {
   DeskOptions options;
   options.mission.speed_m_s = 0.22;
@@ -50,6 +56,7 @@ struct DeskBench {
     seen->captured = now;
     obstacles.publish(*seen, now);
     thrusts.publish({}, now);
+    armings.publish(arming, now);
   }
   void status(MissionState state, std::uint64_t aborts = 0, std::uint64_t order = 0,
               OrderAnswer answer = OrderAnswer::kNone) {
@@ -76,6 +83,8 @@ struct DeskBench {
   Writer<VehicleState> states{board->vehicle_state, Role::kHigh, "vehicle_state"};
   Writer<SonarObstacles> obstacles{board->sonar_obstacles, Role::kLow, "sonar_obstacles"};
   Writer<ThrustApplied> thrusts{board->thrust_applied, Role::kLow, "thrust_applied"};
+  Writer<ThrustStatus> armings{board->thrust_status, Role::kLow, "thrust_status"};
+  ThrustStatus arming = armed();
   Reader<OperatorCommand> orders{board->operator_command};
   OperatorDesk desk{*board, Role::kHigh, with_a_mission(), [this] { return now; }};
 };
@@ -355,7 +364,7 @@ TEST_CASE("operator desk: it starts by itself once the boat is ready, and not af
     Time now{std::chrono::seconds{100}};
     const auto board = std::make_unique<Blackboard>();
     DeskOptions options = with_a_mission();
-    options.starts_by_itself = true;
+    options.starts_by_itself = options.arms_by_itself = true;
     OperatorDesk desk{*board, Role::kHigh, options, [&] { return now; }};
     Writer<MissionStatus> statuses{board->mission_status, Role::kHigh, "mission_status"};
     Reader<OperatorCommand> orders{board->operator_command};
@@ -375,6 +384,10 @@ TEST_CASE("operator desk: it starts by itself once the boat is ready, and not af
     Writer<SonarObstacles>{board->sonar_obstacles, Role::kLow, "o"}.publish(*seen, now);
     Writer<ThrustApplied>{board->thrust_applied, Role::kLow, "t"}.publish({}, now);
     desk.look();
+    CHECK(orders.latest() == nullptr);  // nobody tells whether there will be thrust
+    Writer<ThrustStatus>{board->thrust_status, Role::kLow, "u"}.publish({}, now);
+    desk.look();
+    CHECK((Reader<ThrustOrder>{board->thrust_order}.latest() != nullptr) == !aborted);  // arms
     CHECK((orders.latest() != nullptr) == !aborted);
   }
 }

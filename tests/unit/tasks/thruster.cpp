@@ -8,13 +8,34 @@
 namespace lodesman::testing {
 namespace {
 
+// Armed, but where it says otherwise.
 struct Thrusters {
+  explicit Thrusters(bool armed = true) {
+    if (armed) {
+      give(ThrustOrderKind::kArm);
+    }
+  }
+
   std::unique_ptr<Blackboard> board = std::make_unique<Blackboard>();
   ScriptedThrusters box;
   ThrusterTask task{*board, Role::kLow, &box};
   Writer<HelmCommand> helm{board->helm_command, Role::kHigh, "helm_command"};
+  Writer<ThrustOrder> orders{board->thrust_order, Role::kHigh, "thrust_order"};
+  Writer<ManualInput> stick{board->manual_input, Role::kHigh, "manual_input"};
   Reader<ThrustApplied> applied{board->thrust_applied};
+  Reader<ThrustStatus> status{board->thrust_status};
+  std::uint64_t stops = 0;
 
+  // With the helm at rest, shortly before the test begins.
+  void give(ThrustOrderKind kind) {
+    const Time before = kStart - seconds{1};
+    order(0, before);
+    task.step(before);
+    stops += kind == ThrustOrderKind::kStop ? 1U : 0U;
+    orders.publish({kind, stops}, before);
+    task.step(before);
+    REQUIRE(status.latest()->value.answer == ThrustAnswer::kObeyed);
+  }
   void order(int surge_ref, Time stamp) {
     HelmCommand command;
     command.reason = HelmReason::kTracking;
@@ -36,14 +57,23 @@ TEST_CASE("thruster task: it does what the helm says and says what it did", "[lo
   const ThrustApplied applied = thrusters.after_step(kStart + milliseconds{50});
   CHECK(applied.reason == ThrustReason::kCommanded);
   CHECK(applied.surge_ref == 40);
-  CHECK(applied.command_sequence == 1);
+  CHECK(applied.command_sequence == 2);
   CHECK(thrusters.box.last == map_thrust(40, 0));
 }
 
 TEST_CASE("thruster task: before the helm has spoken thrust is neutral", "[low_level][tasks]") {
-  Thrusters thrusters;
-  CHECK(thrusters.after_step(kStart).reason == ThrustReason::kNoCommand);
-  CHECK(thrusters.box.last == kNeutralThrust);
+  ThrustStatus before;
+  before.state = ThrustState::kArmed;
+  const auto board = std::make_unique<Blackboard>();
+  // As a low level that was here shortly before has left it; the helm's words are gone.
+  (void)Writer<ThrustStatus>{board->thrust_status, Role::kLow, "thrust_status"}.publish(
+      before, kStart - seconds{1});
+  ScriptedThrusters box;
+  ThrusterTask task{*board, Role::kLow, &box};
+  task.step(kStart);
+  CHECK(Reader<ThrustApplied>{board->thrust_applied}.latest()->value.reason ==
+        ThrustReason::kNoCommand);
+  CHECK(box.last == kNeutralThrust);
 }
 
 TEST_CASE("thruster task: when the helm falls silent thrust is neutral", "[low_level][tasks]") {
@@ -86,6 +116,54 @@ TEST_CASE("thruster task: a box that takes no command is said to have failed",
   CHECK(int{failed.left} == 128);
   thrusters.box.status = CommandStatus::kTaken;
   CHECK(thrusters.after_step(kStart + milliseconds{50}).reason == ThrustReason::kCommanded);
+}
+
+TEST_CASE("thruster task: disarmed it is neutral whatever the helm says", "[low_level][tasks]") {
+  Thrusters thrusters{false};
+  thrusters.order(100, kStart);
+  CHECK(thrusters.after_step(kStart).reason == ThrustReason::kDisarmed);
+  CHECK(thrusters.box.last == kNeutralThrust);
+  CHECK(thrusters.status.latest()->value.state == ThrustState::kDisarmed);
+}
+
+TEST_CASE("thruster task: an emergency stop is obeyed at the next step, whatever the helm says",
+          "[low_level][tasks]") {
+  Thrusters thrusters;
+  thrusters.order(100, kStart);
+  CHECK(thrusters.after_step(kStart).reason == ThrustReason::kCommanded);
+  thrusters.orders.publish({ThrustOrderKind::kStop, 1}, kStart + milliseconds{1});
+  CHECK(thrusters.after_step(kStart + milliseconds{2}).reason == ThrustReason::kStopped);
+  CHECK(thrusters.box.last == kNeutralThrust);
+}
+
+TEST_CASE("thruster task: a stop from before the power was off stands", "[low_level][tasks]") {
+  const auto board = std::make_unique<Blackboard>();
+  ScriptedThrusters box;
+  ThrusterOptions options;
+  options.stop_is_latched = true;
+  ThrusterTask task{*board, Role::kLow, &box, options};
+  task.step(kStart);
+  CHECK(Reader<ThrustStatus>{board->thrust_status}.latest()->value.state == ThrustState::kStopped);
+}
+
+TEST_CASE("thruster task: the stick outranks the helm, and silent it is neutral",
+          "[low_level][tasks]") {
+  Thrusters thrusters;
+  thrusters.order(100, kStart);
+  thrusters.stick.publish({-30, 20}, kStart);
+  ThrustApplied applied = thrusters.after_step(kStart);
+  CHECK(applied.reason == ThrustReason::kManual);
+  CHECK(applied.surge_ref == -30);
+  CHECK(applied.head_ref == 20);
+  CHECK(thrusters.box.last == map_thrust(-30, 20));
+  const Time late = kStart + max_age::kManualInput;
+  thrusters.order(100, late);
+  CHECK(thrusters.after_step(late).reason == ThrustReason::kManual);
+  applied = thrusters.after_step(late + Duration{1});
+  CHECK(applied.reason == ThrustReason::kStickSilent);
+  CHECK(thrusters.box.last == kNeutralThrust);
+  thrusters.order(100, late + seconds{10});
+  CHECK(thrusters.after_step(late + seconds{10}).reason == ThrustReason::kStickSilent);
 }
 
 TEST_CASE("thruster task: made safe it is neutral whatever the helm said", "[low_level][tasks]") {

@@ -200,7 +200,7 @@ TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
   watch.poll(kStart);
   const SegmentState state{"lodesman-x", true, false, watch.state()};
   const auto lines = table_lines(state, false);
-  REQUIRE(lines.size() == 3 + 17 + 1 + kDeviceCount + kTaskCount + 1);
+  REQUIRE(lines.size() == 3 + 21 + 1 + kDeviceCount + kTaskCount + 1);
   REQUIRE(lines[0] == "! lodesman-x: lodesman-low alive, lodesman-high GONE");
   std::string all;
   for (const std::string& line : lines) {
@@ -220,7 +220,7 @@ TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
 
   const auto json = to_json(state);
   REQUIRE(json.at("high_alive") == false);
-  REQUIRE(json.at("channels").size() == 17);
+  REQUIRE(json.at("channels").size() == 21);
   REQUIRE(json.at("devices").size() == kDeviceCount);
   REQUIRE(json.at("channels")[1].at("name") == "attitude");
   REQUIRE(json.at("channels")[1].at("stale") == false);
