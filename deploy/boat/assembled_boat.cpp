@@ -184,6 +184,12 @@ class Catalogue {
 
 bool is_simulated(const BoatConfig& config) { return simulated_device(config.devices) != nullptr; }
 
+bool has_real_devices(const BoatConfig& config) {
+  return std::any_of(contracts().begin(), contracts().end(), [&](const Contract& contract) {
+    return is_real(config.devices.*contract.address);
+  });
+}
+
 bool has_real_thrusters(const BoatConfig& config) { return is_real(config.devices.thrusters); }
 
 std::optional<Scenario> simulated_scenario(const BoatConfig& config) {

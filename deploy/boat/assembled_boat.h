@@ -16,6 +16,7 @@ namespace lodesman {
 
 [[nodiscard]] bool is_simulated(const BoatConfig& config);
 [[nodiscard]] bool has_real_thrusters(const BoatConfig& config);
+[[nodiscard]] bool has_real_devices(const BoatConfig& config);
 
 // The scenario that the configuration names; empty where no device is simulated. Refuses a world
 // that nothing belongs to, and a simulated device without one.

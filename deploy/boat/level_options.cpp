@@ -31,6 +31,11 @@ LowLevelOptions read_low_level_options(const TomlTable& configuration) {
   if (zones.choice("source", {"own", "protection"}) == 0) {
     options.delta_t.own_zones = own;
   }
+  const TomlTable battery = configuration.table("battery");
+  options.thruster.battery = {battery.number("low_V", Range::between(0.0, 1000.0)),
+                              battery.number("critical_V", Range::between(0.0, 1000.0)),
+                              battery.number("hysteresis_V", Range::between(0.0, 10.0)),
+                              battery.number("sag_V", Range::between(0.0, 100.0))};
   const TomlTable tracks = configuration.table("tracks");
   auto& oracle = options.delta_t.track_oracle;
   oracle.delay = tracks.duration("delay_s", Range::between(0.0, 2.0));

@@ -3,7 +3,9 @@
 #include <spdlog/spdlog.h>
 
 #include "deploy/boat/assembled_boat.h"
+#include "deploy/boat/device_watch.h"
 #include "deploy/boat/exit_status.h"
+#include "deploy/boat/latch_file.h"
 #include "deploy/boat/log.h"
 #include "deploy/boat/process_main.h"
 #include "mid_level/base/clock.h"
@@ -18,8 +20,36 @@ struct LowOptions : ProcessOptions {
   std::optional<std::uint64_t> seed;  // instead of the scenario's
 };
 
+// Simulated thrusters harm nobody: nothing of them is kept.
+[[nodiscard]] std::optional<LatchFile> latch_of(const BoatConfig& config) {
+  const auto place =
+      has_real_thrusters(config) ? LatchFile::place_for(config.segment) : std::nullopt;
+  return place ? std::optional{LatchFile{*place}} : std::nullopt;
+}
+
+void take_over(const std::optional<LatchFile>& latch, BoatConfig& config) {
+  const Latch found = latch ? latch->read() : Latch::kClear;
+  config.low.thruster.stop_is_latched = found == Latch::kStopped;
+  config.low.thruster.remembers = found != Latch::kUnreadable;
+  if (found == Latch::kStopped) {
+    spdlog::warn("the emergency stop is latched: lodesman estop --release, then lodesman arm");
+  } else if (found == Latch::kUnreadable) {
+    spdlog::warn("the latch of the emergency stop cannot be read: the thrusters are disarmed");
+  }
+}
+
+void keep(std::optional<LatchFile>& latch, Reader<ThrustStatus>& thrust) {
+  const auto* status = thrust.latest();
+  if (!latch || status == nullptr) {
+    return;
+  }
+  if (const auto complaint = latch->follow(status->value)) {
+    spdlog::error("{}", *complaint);
+  }
+}
+
 int run(const LowOptions& options) {
-  const BoatConfig config = load_configuration(options.profile, options.common);
+  BoatConfig config = load_configuration(options.profile, options.common);
   std::optional<Scenario> simulated = simulated_scenario(config);
   if (simulated) {
     simulated->seed = options.seed.value_or(simulated->seed);
@@ -31,6 +61,8 @@ int run(const LowOptions& options) {
   if (!board.legacy().empty()) {
     spdlog::warn("segment {}: {}", config.segment, board.legacy());
   }
+  std::optional<LatchFile> latch = latch_of(config);
+  take_over(latch, config);
   AssembledBoat boat{board.writable(), config, scenario};
   if (const std::string missing = set_up_realtime(); !missing.empty()) {
     spdlog::warn("{}", missing);
@@ -38,8 +70,17 @@ int run(const LowOptions& options) {
   const auto tasks = boat.tasks();
   HealthWatch health{*board, tasks, SteadyClock{}.now()};
   const RealtimeRunner runner{tasks, board.writable(), Role::kLow, end_without};
+  std::optional<DeviceWatch> devices;
+  if (has_real_devices(config)) {
+    devices.emplace(*board, config.devices);
+  }
+  Reader<ThrustStatus> thrust{board->thrust_status};
   wait_for_stop([&] {
     say_what_hangs(health);
+    if (devices) {
+      devices->say_news(SteadyClock{}.now());
+    }
+    keep(latch, thrust);
     return false;
   });
   return kExitDone;

@@ -46,7 +46,8 @@ void ThrusterTask::begin(Time now) noexcept {
   const auto* order = orders_.latest();
   const std::uint64_t stops = order != nullptr ? order->value.stops : 0;
   if (const auto* before = before_.latest(); before != nullptr) {
-    arming_.remember(before->value, stops, now - before->stamp, now);
+    const Duration age = remembers_ ? now - before->stamp : kArmedMemory + Duration{1};
+    arming_.remember(before->value, stops, age, now);
     obeyed_ = before->value.order;
   }
   if (stop_is_latched_) {

@@ -16,6 +16,7 @@ namespace lodesman {
 struct ThrusterOptions {
   BatteryOptions battery;
   bool stop_is_latched = false;  // an emergency stop from before the power was off
+  bool remembers = true;         // that a low level shortly before had the thrusters armed
 };
 
 class ThrusterTask final : public Task {
@@ -35,7 +36,8 @@ class ThrusterTask final : public Task {
         battery_out_{writer_of(board, board.battery_status, role)},
         device_{board, role, DeviceId::kThrusters, max_age::kThrustApplied},
         battery_{options.battery},
-        stop_is_latched_{options.stop_is_latched} {}
+        stop_is_latched_{options.stop_is_latched},
+        remembers_{options.remembers} {}
 
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override {
@@ -66,6 +68,7 @@ class ThrusterTask final : public Task {
   Arming arming_;
   BatteryMonitor battery_;
   bool stop_is_latched_;
+  bool remembers_;
   bool begun_ = false;
   CommandStatus box_ = CommandStatus::kNotReady;  // to the last command
   std::uint64_t obeyed_ = 0;                      // sequence of the last order that was taken

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/boat/device_watch.h"
+
+#include <spdlog/spdlog.h>
+
+namespace lodesman {
+namespace {
+
+// What is ill for less than this is counted and not told.
+constexpr Duration kPatience = std::chrono::milliseconds{400};
+
+[[nodiscard]] bool is_well(DeviceStatus status) noexcept {
+  return status == DeviceStatus::kWorking || status == DeviceStatus::kAbsent;
+}
+
+}  // namespace
+
+DeviceWatch::DeviceWatch(const Blackboard& board, const DeviceAddresses& addresses)
+    : addresses_{addresses.heading, addresses.sonar, addresses.position, addresses.thrusters},
+      devices_{Reader<DeviceHealth>{board.device_health[0]},
+               Reader<DeviceHealth>{board.device_health[1]},
+               Reader<DeviceHealth>{board.device_health[2]},
+               Reader<DeviceHealth>{board.device_health[3]}},
+      arming_{board.thrust_status},
+      battery_{board.battery_status} {}
+
+void DeviceWatch::say_news(Time now) {
+  for (std::size_t i = 0; i < kDeviceCount; ++i) {
+    look_at(static_cast<DeviceId>(i), now);
+  }
+  look_at_arming();
+}
+
+void DeviceWatch::look_at(DeviceId id, Time now) {
+  const auto i = static_cast<std::size_t>(id);
+  const auto* newest = devices_[i].latest();
+  if (newest == nullptr) {
+    return;
+  }
+  const DeviceHealth& health = newest->value;
+  Told& told = told_[i];
+  const bool is_news = health.status != told.status || health.fault != told.fault;
+  const bool lasts = now - health.since >= kPatience || is_well(health.status);
+  if (!is_news || !lasts) {
+    return;
+  }
+  const bool was_ill = !is_well(told.status) || told.fault != DeviceFault::kNone;
+  const std::string what = std::string{to_string(id)} + " (" + addresses_[i] + ")";
+  if (is_well(health.status) && health.fault == DeviceFault::kNone) {
+    if (was_ill) {
+      spdlog::info("{}: {}", what, to_string(health.status));
+    }
+  } else {
+    const char* why = describe(health.fault);
+    spdlog::warn("{}: {}{}{}", what, to_string(health.status), why[0] != '\0' ? ": " : "", why);
+  }
+  told = {health.status, health.fault};
+}
+
+void DeviceWatch::look_at_arming() {
+  if (const auto* status = arming_.latest();
+      status != nullptr && status->value.state != told_state_) {
+    told_state_ = status->value.state;
+    spdlog::warn("thrusters: {} ({})", to_string(told_state_), to_string(status->value.cause));
+  }
+  if (const auto* battery = battery_.latest();
+      battery != nullptr && battery->value.level != told_level_) {
+    told_level_ = battery->value.level;
+    spdlog::warn("battery: {}, {:.1f} V", to_string(told_level_), battery->value.volts);
+  }
+}
+
+}  // namespace lodesman

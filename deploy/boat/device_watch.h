@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Says in the log, once a change, what ails the devices and what becomes of the thrusters' arming.
+// The main thread of lodesman-low.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "deploy/boat/configuration.h"
+#include "mid_level/blackboard/blackboard.h"
+
+namespace lodesman {
+
+class DeviceWatch {
+ public:
+  DeviceWatch(const Blackboard& board, const DeviceAddresses& addresses);
+
+  void say_news(Time now);
+
+ private:
+  struct Told {
+    DeviceStatus status = DeviceStatus::kAwaited;
+    DeviceFault fault = DeviceFault::kNone;
+  };
+
+  void look_at(DeviceId id, Time now);
+  void look_at_arming();
+
+  std::array<std::string, kDeviceCount> addresses_;
+  std::array<Reader<DeviceHealth>, kDeviceCount> devices_;
+  std::array<Told, kDeviceCount> told_{};
+  Reader<ThrustStatus> arming_;
+  Reader<BatteryStatus> battery_;
+  ThrustState told_state_ = ThrustState::kDisarmed;
+  BatteryLevel told_level_ = BatteryLevel::kUnknown;
+};
+
+}  // namespace lodesman
