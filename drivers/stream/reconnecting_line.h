@@ -55,7 +55,7 @@ class ReconnectingLine final : public ByteStream {
 
  private:
   enum class Hold : std::int32_t { kAbsent, kOpened, kGivenUp };
-  struct Word {
+  struct alignas(8) Word {  // clang takes a lock for an atomic that is not aligned to its size
     Hold hold = Hold::kAbsent;
     std::int32_t baud = 0;
   };
