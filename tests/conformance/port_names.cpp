@@ -105,7 +105,7 @@ TEMPLATE_LIST_TEST_CASE("port: whoever is to be told of bytes is told, and not w
 }
 
 TEST_CASE("port: what is no port is told from what is not there or not allowed", "[conformance]") {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryDirectory folder;
   const auto fault = [](const std::string& path) { return open_port(path, 57600).fault; };
   CHECK(fault((folder.path() / "nothing").string()) == DeviceFault::kNoPort);
   CHECK(fault((folder.path() / "nothing" / "inside").string()) == DeviceFault::kNoPort);

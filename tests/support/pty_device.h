@@ -20,6 +20,7 @@
 #include <thread>
 
 #include "tests/support/catch.h"
+#include "tests/unit/report/temporary_directory.h"
 
 namespace lodesman::testing {
 
@@ -35,25 +36,6 @@ namespace lodesman::testing {
   }
   return true;
 }
-
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "lodesman-pty-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 class PtyDevice {
  public:
@@ -115,7 +97,7 @@ class PtyDevice {
   }
 
  private:
-  ScratchFolder folder_;
+  TemporaryDirectory folder_;
   std::string node_;
   int master_ = -1;
 };
