@@ -13,6 +13,8 @@ class FileDescriptor {
  public:
   FileDescriptor() noexcept = default;
   explicit FileDescriptor(int value) noexcept : value_{value} {}
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
   FileDescriptor(FileDescriptor&& other) noexcept : value_{std::exchange(other.value_, -1)} {}
   FileDescriptor& operator=(FileDescriptor&& other) noexcept {
     std::swap(value_, other.value_);

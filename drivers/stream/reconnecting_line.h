@@ -44,6 +44,8 @@ class ReconnectingLine final : public ByteStream {
   // where the system gives no thread or descriptor, but not because there is no port.
   ReconnectingLine(std::string path, int baud, PortOpener open_port,
                    std::function<void()> on_bytes = {});
+  ReconnectingLine(const ReconnectingLine&) = delete;
+  ReconnectingLine& operator=(const ReconnectingLine&) = delete;
   // Waits for the helper: no longer than it takes to open or close the port.
   ~ReconnectingLine() override;
 

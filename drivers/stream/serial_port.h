@@ -19,6 +19,8 @@ class SerialPort final : public Port {
   [[nodiscard]] static bool knows(const std::string& node) noexcept;
 
   SerialPort(TtyClaim claim, sp_port* port, int descriptor) noexcept;
+  SerialPort(const SerialPort&) = delete;
+  SerialPort& operator=(const SerialPort&) = delete;
   ~SerialPort() override;
 
   [[nodiscard]] std::size_t read(std::span<std::uint8_t> into) noexcept override;

@@ -17,6 +17,8 @@ class TermiosPort final : public Port {
   [[nodiscard]] static OpenedPort open(TtyClaim claim, int baud);
 
   explicit TermiosPort(FileDescriptor descriptor) noexcept : descriptor_{std::move(descriptor)} {}
+  TermiosPort(const TermiosPort&) = delete;
+  TermiosPort& operator=(const TermiosPort&) = delete;
   ~TermiosPort() override;
 
   [[nodiscard]] std::size_t read(std::span<std::uint8_t> into) noexcept override;
