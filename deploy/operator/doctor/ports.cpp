@@ -63,7 +63,7 @@ constexpr std::string_view kDev = "/dev/";
 }
 
 [[nodiscard]] std::string group_name(gid_t group, const fs::path& root) {
-  const std::string number = std::to_string(group);
+  std::string number = std::to_string(group);
   for (const std::string& line : lines_of(root / "etc/group")) {
     std::istringstream fields{line};
     std::array<std::string, 3> field;
