@@ -118,14 +118,7 @@ bool set_speed(int descriptor, int baud) noexcept {
          cfgetospeed(&settings) == speed->code;
 }
 
-void discard_input(int descriptor) noexcept {
-  // More than a pty holds, and an end where a device sends without a pause.
-  constexpr int kMaxPieces = 64;
-  std::array<std::uint8_t, 4096> piece{};
-  tcflush(descriptor, TCIFLUSH);
-  for (int i = 0; i<kMaxPieces&& ::read(descriptor, piece.data(), piece.size())> 0; ++i) {
-  }
-}
+void discard_input(int descriptor) noexcept { tcflush(descriptor, TCIFLUSH); }
 
 void discard_output(int descriptor) noexcept { tcflush(descriptor, TCOFLUSH); }
 

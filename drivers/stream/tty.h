@@ -42,8 +42,7 @@ struct TtyClaim {
 // False where there is no such speed [bit/s], or the device does not take it.
 [[nodiscard]] bool set_speed(int descriptor, int baud) noexcept;
 
-// Drops what waits to be read. Not one flush: a pty keeps more than the 4 KiB that a flush drops,
-// and the rest would come up afterwards.
+// Drops what waits to be read, and what the kernel has still to make ready: a pty keeps 18 KiB.
 void discard_input(int descriptor) noexcept;
 // Drops what waits to be sent: closing would wait for it to leave, on some devices 30 s.
 void discard_output(int descriptor) noexcept;
