@@ -98,8 +98,10 @@ TEST_CASE("reconnecting line: one thread has a port at a time, and no two are op
 TEST_CASE("S2: a port that takes long to close or to open keeps nobody waiting", "[drivers]") {
   PortBook book;
   std::latch may_open{1};
+  std::atomic<int> opening{0};
   const PortOpener at_once = opener(book);
   ReconnectingLine line{"port", 9600, [&](const std::string& path, int baud) {
+                          ++opening;
                           if (book.tries > 0) {
                             may_open.wait();
                           }
@@ -110,24 +112,24 @@ TEST_CASE("S2: a port that takes long to close or to open keeps nobody waiting",
   line.reconnect(19200);
   std::array<std::uint8_t, 4> bytes{};
   // Were one of these to wait for the port, this would never end.
-  const auto use = [&] {
+  const auto use = [&](int baud) {
     for (int i = 0; i < 100; ++i) {
       CHECK(line.connection(kNow) == 0);
       CHECK(line.read(bytes, kNow).count == 0);
       CHECK(line.write(bytes, kNow) == 0);
-      line.reconnect(19200 + i);
+      line.reconnect(baud + i);
     }
   };
   REQUIRE(eventually([&] { return book.destroyed_by.load() != std::thread::id{}; }));
-  use();
+  use(19200);
   book.may_close = true;
-  REQUIRE(eventually([&] { return book.open == 0; }));
-  use();
+  REQUIRE(eventually([&] { return opening == 2; }));
+  use(38400);  // while it is being opened at another speed
   CHECK(line.fault() == DeviceFault::kNone);
   may_open.count_down();
   REQUIRE(eventually([&] { return line.connection(kNow) == 2; }));
   REQUIRE(line.read(bytes, kNow).count == 1);
-  CHECK(book.speed_seen == 19299);
+  CHECK(book.speed_seen == 38499);
   CHECK(book.destroyed_by != std::this_thread::get_id());
 }
 
