@@ -7,3 +7,4 @@ install(DIRECTORY deploy/config deploy/pictures DESTINATION ${CMAKE_INSTALL_DATA
 install(DIRECTORY hal_sim/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/lodesman/hal_sim)
 install(DIRECTORY docs/ TYPE DOC)
 install(FILES README.md LICENSE TYPE DOC)
+install(FILES deploy/udev/60-lodesman.rules DESTINATION lib/udev/rules.d)

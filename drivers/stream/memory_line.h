@@ -43,6 +43,7 @@ class MemoryLine {
   MemoryLine() noexcept : near_{*this} {}
   MemoryLine(const MemoryLine&) = delete;
   MemoryLine& operator=(const MemoryLine&) = delete;
+  ~MemoryLine() = default;
 
   [[nodiscard]] ByteStream& near_end() noexcept { return near_; }
 

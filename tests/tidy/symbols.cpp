@@ -28,7 +28,8 @@ const std::vector<SymbolRule>& symbol_rules() {
        R"(|timerfd_\w+|syscall|p?poll|p?select|epoll_\w*wait)",
        {""},
        {"mid_level/base/clock.cpp", "mid_level/blackboard/bell.cpp",
-        "mid_level/blackboard/segment.cpp", kAsio, kOperator}},
+        "mid_level/blackboard/segment.cpp", "drivers/stream/reconnecting_line.cpp", kAsio,
+        kOperator}},
       {"locks",
        R"(pthread_(mutex|rwlock|cond|spin|barrier|once)\w*|sem_\w+|__cxa_guard_acquire)"
        R"(|std::(condition_variable|__once|mutex|shared_mutex|recursive_mutex)\b.*)",
@@ -37,7 +38,7 @@ const std::vector<SymbolRule>& symbol_rules() {
       {"threads",
        R"(pthread_create|std::thread::_M_start_thread\(.*|thrd_create|fork|vfork|clone)",
        {""},
-       {"mid_level/runtime", kAsio, kOperator}},
+       {"mid_level/runtime", "drivers/stream/reconnecting_line.cpp", kAsio, kOperator}},
       // check.cpp says why it ends the process.
       {"log calls",
        R"(spdlog::.*|fmt::\w+::v?print.*|std::c(out|err|log)|(__)?v?[fd]?printf(_chk)?|f?puts)"

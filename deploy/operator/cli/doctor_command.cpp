@@ -8,13 +8,28 @@
 #include "deploy/operator/cli/common_options.h"
 #include "deploy/operator/doctor/diagnosis.h"
 #include "deploy/operator/doctor/machine.h"
+#include "deploy/operator/doctor/port_diagnosis.h"
+#include "deploy/operator/doctor/ports.h"
+#include "mid_level/base/startup_error.h"
 
 namespace lodesman::cli {
 namespace {
 
+// None where the configuration cannot be read, of which the machine's findings tell.
+[[nodiscard]] std::vector<NamedPort> named_ports(const CommonOptions& options) {
+  try {
+    return ports_named_in(load_configuration("default", options).devices);
+  } catch (const StartupError&) {
+    return {};
+  }
+}
+
 [[nodiscard]] int doctor(const CommonOptions& options) {
   using Json = nlohmann::ordered_json;
-  const std::vector<Finding> findings = judge(measure_machine(options));
+  std::vector<Finding> findings = judge(measure_machine(options));
+  for (Finding& finding : judge_ports(measure_ports(named_ports(options)))) {
+    findings.push_back(std::move(finding));
+  }
   const bool bad = any_bad(findings);
   if (options.json) {
     Json list = Json::array();
@@ -41,7 +56,9 @@ void add_doctor_command(CLI::App& root, int& exit_status) {
   CLI::App* command =
       root.add_subcommand("doctor", "What this machine lacks, with the command that mends it");
   add_common_options(*command, *options);
-  command->footer("Example: lodesman doctor\n\nExit status 4 where something is bad.");
+  command->footer(
+      "Example: lodesman doctor --config boat.toml   # and the serial ports that it names\n\n"
+      "Exit status 4 where something is bad.");
   command->callback([options, &exit_status] { exit_status = doctor(*options); });
 }
 
