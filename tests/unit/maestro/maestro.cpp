@@ -82,9 +82,10 @@ TEST_CASE("maestro: it is asked, proved, held at neutral and then taken", "[maes
 
 TEST_CASE("maestro: nothing at all is said while the time-out is proved", "[maestro]") {
   MaestroBench bench;
-  while (bench.driver.state() != State::kPausing) {
+  for (int i = 0; i < 10 && bench.driver.state() != State::kPausing; ++i) {
     bench.step();
   }
+  REQUIRE(bench.driver.state() == State::kPausing);
   int silent_ms = 0;
   for (bench.step(); bench.driver.state() == State::kPausing; bench.step()) {
     CHECK(bench.sent.empty());
