@@ -73,12 +73,15 @@ TEST_CASE("fuzz corpus: command lines", "[fuzz]") { run_all("command_line"); }
 TEST_CASE("fuzz corpus: configurations", "[fuzz]") { run_all("configuration"); }
 TEST_CASE("fuzz corpus: frames of plan", "[fuzz]") { run_all("frames"); }
 TEST_CASE("fuzz corpus: images of segment", "[fuzz]") { run_all("image"); }
+TEST_CASE("fuzz corpus: answers of a maestro", "[fuzz]") { run_all("maestro"); }
 TEST_CASE("fuzz corpus: maps of plan", "[fuzz]") { run_all("map"); }
 TEST_CASE("fuzz corpus: queries on a map", "[fuzz]") { run_all("map_queries"); }
 TEST_CASE("fuzz corpus: messages in shared memory", "[fuzz]") { run_all("message"); }
+TEST_CASE("fuzz corpus: answers of a roboclaw", "[fuzz]") { run_all("roboclaw"); }
 TEST_CASE("fuzz corpus: scenarios", "[fuzz]") { run_all("scenario"); }
 TEST_CASE("fuzz corpus: segment headers", "[fuzz]") { run_all("segment_header"); }
 TEST_CASE("fuzz corpus: settings of the command line", "[fuzz]") { run_all("setting"); }
+TEST_CASE("fuzz corpus: what is said to thrusters", "[fuzz]") { run_all("thruster_lines"); }
 
 TEST_CASE("fuzz corpus: every folder of seeds has its target", "[fuzz]") {
   for (const fs::path& folder : files_of(kTree / "tests/fuzz/corpus")) {

@@ -11,12 +11,15 @@ std::span<const Target> targets() {
       Target{"configuration", configuration, "deploy/config"},
       Target{"frames", frames, ""},
       Target{"image", image, ""},
+      Target{"maestro", maestro, "", 60},
       Target{"map", map, ""},
       Target{"map_queries", map_queries, ""},
       Target{"message", message, "", 40},
+      Target{"roboclaw", roboclaw, "", 60},
       Target{"scenario", scenario, "hal_sim/scenarios"},
       Target{"segment_header", segment_header, ""},
       Target{"setting", setting, ""},
+      Target{"thruster_lines", thruster_lines, ""},
   };
   return kTargets;
 }

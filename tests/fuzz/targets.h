@@ -12,12 +12,15 @@ void command_line(std::string_view input);    // a line of the command socket
 void configuration(std::string_view input);   // an overlay, as of --config
 void frames(std::string_view input);          // lodesman plan --frames
 void image(std::string_view input);           // an image of lodesman segment
+void maestro(std::string_view input);         // answers of a thruster box to its driver
 void map(std::string_view input);             // lodesman plan --map
 void map_queries(std::string_view input);     // lodesman plan --scen
 void message(std::string_view input);         // changes to a message in shared memory
+void roboclaw(std::string_view input);        // answers of the other box
 void scenario(std::string_view input);        // a scenario file
 void segment_header(std::string_view input);  // changes to a good header of shared memory
 void setting(std::string_view input);         // one --set
+void thruster_lines(std::string_view input);  // what was said to such a box, for lodesman decode
 
 struct Target {
   std::string_view name;  // of its folder in the corpus too
