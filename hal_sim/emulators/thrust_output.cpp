@@ -64,10 +64,6 @@ EmulatedEsc::State EmulatedEsc::next(Pulse pulse, Time now) noexcept {
       return pulse == turns_ || now >= neutral_since_ + kReversePause ? State::kTurning
                                                                       : State::kBalking;
     case State::kTurning:
-      if (is_neutral) {
-        return State::kStopped;
-      }
-      return pulse == turns_ ? State::kTurning : State::kBalking;
     case State::kBalking:
       if (is_neutral) {
         return State::kStopped;
