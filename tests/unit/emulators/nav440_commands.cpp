@@ -140,6 +140,11 @@ TEST_CASE("nav440 unit: of several fields the wrong ones are refused", "[hal_sim
   CHECK(set("01 00 08 00 40") == kNakOfSet);  // no such bit
   CHECK(set("01 00 07 01 6C").size() == 10);
   CHECK(set("01 00 15 12 34").size() == 10);
+  CHECK(set("01 00 08 00 3F").size() == 10);
+  // All four masks let everything through until they are set.
+  CHECK(quiet.says(emulated::uu_frame(0x4746, hex("05 00 09 00 10 00 11 00 12 00 13"))) ==
+        emulated::uu_frame(0x4746, hex("05 00 09 00 00 00 10 FF FF 00 11 FF FF 00 12 FF FF 00 13 "
+                                       "FF FF")));
   CHECK(quiet.says(emulated::uu_frame(0x4746, hex("03 00 15 00 16 00 07"))) ==
         emulated::uu_frame(0x4746, hex("02 00 15 12 34 00 07 01 6C")) +
             emulated::uu_frame(0x1515, hex("47 46")));

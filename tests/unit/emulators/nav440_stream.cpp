@@ -204,6 +204,11 @@ TEST_CASE("nav440 unit: older firmware overflows a line that is too slow", "[hal
   const Bytes test = answer(unit, hex("55 55 47 50 02 54 30 68 01"), at_ms(10'001));
   CHECK(i16(test, 8) == 0x0001);
   CHECK(i16(test, 10) == 0x0001);
+  // With packets that fit it is over a second after the last that was dropped.
+  REQUIRE(answer(unit, emulated::uu_frame(0x5346, hex("01 00 01 00 0A")), at_ms(10'002)).size() ==
+          10);
+  CHECK(i16(said_until(unit, at_ms(10'900)).back().bytes, kBitAt) == 0x0005);
+  CHECK(i16(said_until(unit, at_ms(11'100)).back().bytes, kBitAt) == 0);
 }
 
 TEST_CASE("nav440 unit: its last bits flicker, the same way with the same seed",

@@ -62,6 +62,19 @@ TEST_CASE("roboclaw: what fails its check is not done, and not answered", "[hal_
   CHECK(c.box.duty(0) == 16384);
 }
 
+TEST_CASE("roboclaw: answers at its own address, and skips packets for others whole",
+          "[hal_sim][emulators]") {
+  RoboClawOptions options;
+  options.address = 0x87;
+  Claw c{options};
+  CHECK(c.says(hex("80 18")).empty());
+  CHECK(c.tells("87 18", hex("00 FC")));
+  // Behind another's order, in one go, its own is found.
+  CHECK(c.says(hex("80 22 40 00 C0 00 E0 DF") + checked_answer({}, hex("87 20 40 00"))) == kDone);
+  CHECK(c.box.duty(0) == 0x4000);
+  CHECK(c.box.duty(1) == 0);
+}
+
 TEST_CASE("roboclaw: every order for one motor", "[hal_sim][emulators]") {
   Claw c;
   const auto duty = [&](const char* order, std::size_t motor) {
