@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The faults that a scenario gives its devices, by scenario time. Plain data; any thread.
+// The faults that a scenario gives its devices, by scenario time, and one fault as a line of text,
+// for whoever gives them while something runs. Plain data; any thread.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mid_level/config/toml_document.h"
@@ -14,25 +17,78 @@ enum class FaultDevice : std::uint8_t { kAhrs, kThruster, kSonar, kPosition };
 
 enum class FaultKind : std::uint8_t {
   kNone,
+  // Of every device.
   kStall,       // a sensor brings nothing new; the thruster box takes commands and ignores them
   kCorrupt,     // what a sensor brings fails its check; not for the thruster box
   kDisconnect,  // the device is gone
+  // From here on of devices that are emulated to the byte. Of single bytes, both ways:
+  kFlip,          // becomes another, with the chance `rate`
+  kBurst,         // the same, but only in bad spells: 20 ms of them after 10 s, on the average
+  kDrop,          // is lost
+  kDuplicate,     // comes twice
+  kInsert,        // has one before it that nobody sent
+  kInterference,  // flips and unplugging that grow with the square of the thrust
+  // Of what the device says in one go.
+  kCut,   // only its beginning comes
+  kLate,  // an answer comes one to three times `value` too late
+  // Of the line.
+  kBatch,   // an adapter collects for `value` before it hands on
+  kHang,    // silence of any length, now and then
+  kReplug,  // unplugged and plugged again, now and then, half of the times under another name
+  kPower,   // off for the duration, then on again
+  // Of what an AHRS says: whole packets that are wrong.
+  kFrozen,    // the same values again and again
+  kStep,      // the heading is off by `value`
+  kDrift,     // the heading wanders off by `value` a second
+  kSpike,     // the heading is off by `value` in single packets
+  kInvalid,   // the most negative number everywhere
+  kMagnetic,  // the heading is off by `value` at full thrust
+  kBit,       // its built-in test says `value`
+  // Of a thruster box.
+  kError,      // it reports an error now and then, with `rate` a second
+  kReset,      // it forgets what it was told
+  kRefuse,     // it ignores targets for the channel `value`
+  kNoTimeOut,  // it does not stop by itself
+  kWrongMode,  // it ignores everything on this port
+  kBattery,    // its battery has `value`
 };
+inline constexpr std::size_t kFaultKindCount = static_cast<std::size_t>(FaultKind::kBattery) + 1;
 
 struct Fault {
   FaultDevice device = FaultDevice::kAhrs;
   FaultKind kind = FaultKind::kNone;
   double at_s = 0.0;
   double duration_s = 0.0;
+  double rate = 0.0;   // how often; in what, the help text says
+  double value = 0.0;  // how much; in what, the help text says
 };
+
+// Whether only a device that is emulated to the byte can have it.
+[[nodiscard]] constexpr bool needs_bytes(FaultKind kind) noexcept {
+  return kind > FaultKind::kDisconnect;
+}
+
+// As it is written: "flip".
+[[nodiscard]] std::string_view name_of(FaultKind kind) noexcept;
+[[nodiscard]] std::string_view name_of(FaultDevice device) noexcept;
 
 // The [[fault]] tables of a scenario. Throws StartupError.
 [[nodiscard]] std::vector<Fault> read_faults(const TomlTable& root);
 
-// The kinds that each device has, one device a line, for a help text.
+// One fault, or why the text is none.
+struct ParsedFault {
+  std::optional<Fault> fault;
+  std::string refusal;
+};
+// "ahrs flip rate=0.01 for=5": device and kind, then in any order `rate`, `value`, `at` [s] (0 when
+// left out: at once) and `for` [s] (left out: to the end). Never throws StartupError.
+[[nodiscard]] ParsedFault parse_fault(std::string_view text);
+
+// The kinds that each device has, for a help text.
 [[nodiscard]] std::string fault_kinds_help();
 
-// The faults of one device. Where two overlap, the one that comes first in the file counts.
+// The faults of one device that a device without bytes can have. Where two overlap, the one that
+// comes first in the file counts.
 class FaultSchedule {
  public:
   FaultSchedule(const std::vector<Fault>& faults, FaultDevice device);

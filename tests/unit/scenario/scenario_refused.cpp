@@ -41,6 +41,10 @@ void check_rows(const std::vector<Row>& rows) {
 }
 
 const std::string kMany(70, 'x');
+const std::string kBoxFaults =
+    "stall, disconnect, flip, burst, drop, duplicate, insert, interference, cut, late, batch, "
+    "hang, "
+    "replug, power, error, reset, refuse, no_time_out, wrong_mode, battery";
 
 TEST_CASE("scenario: head, mission and vehicle are refused with one line", "[hal_sim][scenario]") {
   check_rows({
@@ -184,9 +188,23 @@ TEST_CASE("scenario: environment, position, sonar and faults are refused with on
       {"device = \"thruster\"", "device = \"gps\"",
        "s.toml:47: fault[0].device: must be one of: ahrs, thruster, sonar, position"},
       {"kind = \"disconnect\"", "kind = \"corrupt\"",
-       "s.toml:48: fault[0].kind: must be one of: stall, disconnect"},
+       "s.toml:48: fault[0].kind: must be one of: " + kBoxFaults},
       {"kind = \"disconnect\"", "kind = \"explode\"",
-       "s.toml:48: fault[0].kind: must be one of: stall, disconnect"},
+       "s.toml:48: fault[0].kind: must be one of: " + kBoxFaults},
+      {"kind = \"disconnect\"", "kind = \"frozen\"",
+       "s.toml:48: fault[0].kind: must be one of: " + kBoxFaults},
+      {"device = \"thruster\"\nkind = \"disconnect\"", "device = \"sonar\"\nkind = \"flip\"",
+       "s.toml:48: fault[0].kind: must be one of: stall, corrupt, disconnect"},
+      {"kind = \"disconnect\"", "kind = 3", "s.toml:48: fault[0].kind: must be a text"},
+      {"duration_s = 5.0", "duration_s = 5.0\nrate = 0.1", "s.toml:51: fault[0].rate: unknown key"},
+      {"duration_s = 5.0", "duration_s = 5.0\nvalue = 0.1",
+       "s.toml:51: fault[0].value: unknown key"},
+      {"kind = \"disconnect\"", "kind = \"flip\"\nrate = 1.1",
+       "s.toml:49: fault[0].rate: must be at least 0 and at most 1"},
+      {"kind = \"disconnect\"", "kind = \"flip\"\nvalue = 1.0",
+       "s.toml:49: fault[0].value: unknown key"},
+      {"kind = \"disconnect\"", "kind = \"refuse\"\nvalue = 24",
+       "s.toml:49: fault[0].value: must be at least 0 and at most 23"},
       {"at_s = 20.0", "at_s = -1.0",
        "s.toml:49: fault[0].at_s: must be at least 0 and at most 100000"},
       {"duration_s = 5.0", "duration_s = 0.0",
