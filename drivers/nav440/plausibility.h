@@ -32,7 +32,8 @@ class Plausibility {
   };
 
   explicit Plausibility(int rate_hz) noexcept
-      : period_{std::chrono::seconds{1} / rate_hz}, still_needed_{rate_hz < kStill ? 3 : kStill} {}
+      : period_{Duration{std::chrono::seconds{1}} / rate_hz},
+        still_needed_{rate_hz < kStill ? 3 : kStill} {}
 
   // `arrived`: less what the line is known to take.
   [[nodiscard]] Judged judge(const HeadingPacket& packet, Time arrived) noexcept;
