@@ -22,6 +22,8 @@ constexpr std::int64_t kBitsOfByte = 10;
 constexpr int kOfAnotherStream = 3;
 // One or two of these may be a step; a row of them is a fault.
 constexpr int kImplausibleInARow = 5;
+// A unit whose time stands still is known by then, and any other has been believed.
+constexpr int kToBeginWith = 12;
 // A packet that is refused weighs as much as so many that are believed.
 constexpr int kImplausibleWeight = 4;
 
@@ -154,12 +156,14 @@ void Nav440::take(const Nav440Frame& frame) noexcept {
 
 void Nav440::judge(const HeadingPacket& packet, Time arrived) noexcept {
   const Plausibility::Judged judged = plausibility_.judge(packet, arrived);
-  if (judged.verdict == Plausibility::Verdict::kNotYet) {
-    return;
-  }
-  if (judged.verdict == Plausibility::Verdict::kRefused) {
+  if (judged.verdict != Plausibility::Verdict::kBelieved) {
+    ++implausible_in_a_row_;
+    // The first ones have nothing to follow from.
+    if (judged.verdict == Plausibility::Verdict::kNotYet && implausible_in_a_row_ < kToBeginWith) {
+      return;
+    }
     implausible_weight_ += kImplausibleWeight;
-    if (++implausible_in_a_row_ >= kImplausibleInARow) {
+    if (implausible_in_a_row_ >= kImplausibleInARow) {
       ails_ = DeviceFault::kImplausible;
     }
     refuse(counts_.implausible);

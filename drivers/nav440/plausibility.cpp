@@ -11,7 +11,6 @@ namespace {
 
 // Times come in whole milliseconds, from a crystal of the unit's or from the satellites.
 constexpr Duration kTimeTolerance = std::chrono::milliseconds{1};
-constexpr std::int64_t kTimeTolerancePart = 5000;  // and so much of the step: 200 ppm
 // Between the unit's clock and ours, at the most: 50 ppm of each.
 constexpr std::int64_t kDriftPart = 10000;
 // By how much a packet may seem to come before it was measured, until batches of the adapter (16
@@ -21,9 +20,9 @@ constexpr Duration kEarly = std::chrono::milliseconds{50};
 constexpr double kYawNoise_deg = 0.5;
 constexpr double kYawDrift_deg_s = 5.0;
 constexpr double kYawCurve_deg_s2 = 10.0;
-constexpr double kMostYaw_deg = 15.0;
 constexpr double kRateNoise_deg_s = 3.0;
 constexpr double kRateChange_deg_s2 = 500.0;
+constexpr double kMostRateChange_deg_s = 60.0;
 constexpr double kLeastCosine = 0.5;  // a boat does not stand on its bow
 
 // Of the heading, from the rates about the body's axes.
@@ -47,12 +46,11 @@ constexpr double kLeastCosine = 0.5;  // a boat does not stand on its bow
 }  // namespace
 
 double Plausibility::yaw_bound_rad(double step_s) noexcept {
-  return to_rad(std::min(kYawNoise_deg + step_s * (kYawDrift_deg_s + step_s * kYawCurve_deg_s2),
-                         kMostYaw_deg));
+  return to_rad(kYawNoise_deg + step_s * (kYawDrift_deg_s + step_s * kYawCurve_deg_s2));
 }
 
 double Plausibility::rate_bound_rad_s(double step_s) noexcept {
-  return to_rad(kRateNoise_deg_s + step_s * kRateChange_deg_s2);
+  return to_rad(std::min(kRateNoise_deg_s + step_s * kRateChange_deg_s2, kMostRateChange_deg_s));
 }
 
 void Plausibility::restart() noexcept {
@@ -74,6 +72,9 @@ Plausibility::Judged Plausibility::judge(const HeadingPacket& packet, Time arriv
     believed_ = candidate_;
     candidate_ = {};
     return {Verdict::kBelieved, believed_.measured};
+  }
+  if (believed_.length > 0 && arrived - believed_.arrived > longest_step_) {
+    believed_ = {};
   }
   return {believed_.length > 0 ? Verdict::kRefused : Verdict::kNotYet, {}};
 }
@@ -102,9 +103,7 @@ Duration Plausibility::step_of_time(const HeadingPacket& from,
   const Duration passed = std::chrono::milliseconds{passed_ms};
   const Duration step = (passed + period_ / 2) / period_ * period_;
   const Duration off = std::chrono::abs(passed - step);
-  return passed <= kLongestStep && off <= kTimeTolerance + passed / kTimeTolerancePart
-             ? step
-             : Duration::zero();
+  return passed <= longest_step_ && off <= kTimeTolerance ? step : Duration::zero();
 }
 
 Duration Plausibility::step_by_time(const Chain& chain, const HeadingPacket& packet,
@@ -115,8 +114,8 @@ Duration Plausibility::step_by_time(const Chain& chain, const HeadingPacket& pac
 
 Duration Plausibility::step_by_arrival(const Chain& chain, Time arrived) const noexcept {
   const Duration passed = arrived - chain.arrived;
-  return passed > kLongestStep ? Duration::zero()
-                               : std::max((passed + period_ / 2) / period_ * period_, period_);
+  return passed > longest_step_ ? Duration::zero()
+                                : std::max((passed + period_ / 2) / period_ * period_, period_);
 }
 
 void Plausibility::watch_time(const HeadingPacket& packet) noexcept {

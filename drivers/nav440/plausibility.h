@@ -7,6 +7,7 @@
 // thread.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "drivers/nav440/packets.h"
@@ -18,12 +19,13 @@ class Plausibility {
  public:
   // So many packets that follow from each other are believed, whatever was before.
   static constexpr int kConsistent = 3;
-  // A reference that is older says nothing of what comes.
-  static constexpr Duration kLongestStep = std::chrono::seconds{10};
+  // A reference that is older says nothing of what comes, as it says nothing to a helmsman; of slow
+  // packets, one that is three periods old.
+  static constexpr Duration kLongestStep = std::chrono::milliseconds{300};
 
   enum class Verdict : std::uint8_t {
     kBelieved,
-    kNotYet,   // nothing was believed so far, and this is too little to begin with
+    kNotYet,   // nothing was believed lately, and this is too little to begin with
     kRefused,  // it follows from nothing
   };
   struct Judged {
@@ -33,6 +35,7 @@ class Plausibility {
 
   explicit Plausibility(int rate_hz) noexcept
       : period_{Duration{std::chrono::seconds{1}} / rate_hz},
+        longest_step_{std::max(kLongestStep, 3 * period_)},
         still_needed_{rate_hz < kStill ? 3 : kStill} {}
 
   // `arrived`: less what the line is known to take.
@@ -71,6 +74,7 @@ class Plausibility {
   void watch_time(const HeadingPacket& packet) noexcept;
 
   Duration period_;
+  Duration longest_step_;
   int still_needed_;
   Chain believed_;
   Chain candidate_;

@@ -280,8 +280,8 @@ TEST_CASE("nav440: packets that go missing cost no other, in a turn too", "[nav4
   bench.run(1.0);
   int n = 0;
   bench.unit.damage = [&n](ByteList& frame) {
-    // Runs of one to forty missing, and one that comes through between them.
-    const int run = 1 + n / 41 % 40;
+    // Runs of one to fourteen missing, and one that comes through between them.
+    const int run = 1 + n / 150 % 14;
     if (n++ % (run + 1) != 0) {
       frame.clear();
     }
@@ -291,6 +291,30 @@ TEST_CASE("nav440: packets that go missing cost no other, in a turn too", "[nav4
   CHECK(bench.driver->counts().implausible == 0);
   CHECK(bench.driver->counts().streams == 1);
   CHECK(bench.samples.size() > before + 100);
+  CHECK(worst_error_deg(bench) < 0.006);
+}
+
+TEST_CASE("nav440: after a gap a heading is given once three packets follow from each other",
+          "[nav440]") {
+  UnitBench bench;
+  bench.unit.motion = [](Time at) { return turning(at, 30.0); };
+  REQUIRE(bench.comes_up());
+  bench.run(1.0);
+  for (const double gap_s : {0.2, 0.4, 0.9}) {
+    INFO(gap_s << " s");
+    const std::size_t before = bench.samples.size();
+    const Time begins = bench.now;
+    bench.unit.damage = [&](ByteList& frame) { frame.clear(); };
+    bench.run(gap_s);
+    bench.unit.damage = [](ByteList&) {};
+    bench.run(0.5);
+    const std::size_t expected = gap_s < 0.3 ? 25U : 23U;
+    CHECK(bench.samples.size() - before >= expected);
+    CHECK(bench.samples.size() - before <= expected + 1);
+    CHECK(bench.samples[before + 1].measured > begins + from_seconds(gap_s - 0.02));
+  }
+  CHECK(bench.driver->counts().implausible == 0);
+  CHECK(bench.corrupt == 0);
   CHECK(worst_error_deg(bench) < 0.006);
 }
 
