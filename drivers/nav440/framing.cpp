@@ -74,14 +74,10 @@ std::size_t Nav440Framing::push(std::span<const std::uint8_t> bytes) noexcept {
 std::optional<Nav440Frame> Nav440Framing::next() noexcept {
   drop_given();
   for (;;) {
+    give_up(known_frame_within());
     switch (judge(held())) {
+      case Verdict::kNeedsMore: return std::nullopt;
       case Verdict::kHolds: return give();
-      case Verdict::kNeedsMore:
-        if (const std::size_t behind = known_frame_behind(); behind > 0) {
-          give_up(behind);
-          return give();
-        }
-        return std::nullopt;
       case Verdict::kCrcFails: ++counts_.crc_failures; break;
       case Verdict::kNoSuchLength: ++counts_.protocol_errors; break;
       case Verdict::kNoPreamble: break;
@@ -124,18 +120,24 @@ Nav440Framing::Verdict Nav440Framing::judge(std::span<const std::uint8_t> bytes)
              : Verdict::kCrcFails;
 }
 
-std::size_t Nav440Framing::known_frame_behind() const noexcept {
+// The one that is whole first, so that it is the same however the bytes come.
+std::size_t Nav440Framing::known_frame_within() const noexcept {
   const std::span<const std::uint8_t> bytes = held();
-  if (bytes.size() <= kLengthAt || nav440::is_known(word_at(bytes, kTypeAt))) {
+  if (bytes.size() <= kLengthAt || nav440::is_known(word_at(bytes, kTypeAt)) ||
+      judge(bytes) == Verdict::kNoPreamble) {
     return 0;
   }
-  for (std::size_t behind = 1; behind + kOverhead <= bytes.size(); ++behind) {
-    const std::span<const std::uint8_t> rest = bytes.subspan(behind);
+  std::size_t first_end = std::min(bytes.size() + 1, bytes[kLengthAt] + kOverhead);
+  std::size_t found = 0;
+  for (std::size_t at = 1; at + kOverhead < first_end; ++at) {
+    const std::span<const std::uint8_t> rest = bytes.subspan(at);
     if (judge(rest) == Verdict::kHolds && nav440::is_known(word_at(rest, kTypeAt))) {
-      return behind;
+      const std::size_t end = at + rest[kLengthAt] + kOverhead;
+      found = end < first_end ? at : found;
+      first_end = std::min(first_end, end);
     }
   }
-  return 0;
+  return found;
 }
 
 void Nav440Framing::give_up(std::size_t bytes) noexcept {

@@ -57,8 +57,8 @@ class Nav440Framing {
 
   // What begins with the first of these bytes.
   [[nodiscard]] static Verdict judge(std::span<const std::uint8_t> bytes) noexcept;
-  // Behind how many bytes; 0: there is none.
-  [[nodiscard]] std::size_t known_frame_behind() const noexcept;
+  // Behind how many bytes there is one within a candidate of a type that is not known; 0: none.
+  [[nodiscard]] std::size_t known_frame_within() const noexcept;
   [[nodiscard]] Nav440Frame give() noexcept;
   [[nodiscard]] std::span<const std::uint8_t> held() const noexcept {
     return std::span{bytes_}.subspan(begin_, end_ - begin_);

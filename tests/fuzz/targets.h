@@ -15,6 +15,7 @@ void image(std::string_view input);           // an image of lodesman segment
 void map(std::string_view input);             // lodesman plan --map
 void map_queries(std::string_view input);     // lodesman plan --scen
 void message(std::string_view input);         // changes to a message in shared memory
+void nav440(std::string_view input);          // what an AHRS says, to its driver and to decode
 void scenario(std::string_view input);        // a scenario file
 void segment_header(std::string_view input);  // changes to a good header of shared memory
 void setting(std::string_view input);         // one --set
