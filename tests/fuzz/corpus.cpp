@@ -77,6 +77,7 @@ TEST_CASE("fuzz corpus: answers of a maestro", "[fuzz]") { run_all("maestro"); }
 TEST_CASE("fuzz corpus: maps of plan", "[fuzz]") { run_all("map"); }
 TEST_CASE("fuzz corpus: queries on a map", "[fuzz]") { run_all("map_queries"); }
 TEST_CASE("fuzz corpus: messages in shared memory", "[fuzz]") { run_all("message"); }
+TEST_CASE("fuzz corpus: what an AHRS says", "[fuzz]") { run_all("nav440"); }
 TEST_CASE("fuzz corpus: answers of a roboclaw", "[fuzz]") { run_all("roboclaw"); }
 TEST_CASE("fuzz corpus: scenarios", "[fuzz]") { run_all("scenario"); }
 TEST_CASE("fuzz corpus: segment headers", "[fuzz]") { run_all("segment_header"); }

@@ -15,6 +15,7 @@ std::span<const Target> targets() {
       Target{"map", map, ""},
       Target{"map_queries", map_queries, ""},
       Target{"message", message, "", 40},
+      Target{"nav440", nav440, "", 200},
       Target{"roboclaw", roboclaw, "", 60},
       Target{"scenario", scenario, "hal_sim/scenarios"},
       Target{"segment_header", segment_header, ""},

@@ -16,6 +16,7 @@ void maestro(std::string_view input);         // answers of a thruster box to it
 void map(std::string_view input);             // lodesman plan --map
 void map_queries(std::string_view input);     // lodesman plan --scen
 void message(std::string_view input);         // changes to a message in shared memory
+void nav440(std::string_view input);          // what an AHRS says, to its driver and to decode
 void roboclaw(std::string_view input);        // answers of the other box
 void scenario(std::string_view input);        // a scenario file
 void segment_header(std::string_view input);  // changes to a good header of shared memory

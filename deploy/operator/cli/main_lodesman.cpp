@@ -5,6 +5,7 @@
 #include "deploy/boat/process_main.h"
 #include "deploy/boat/version.h"
 #include "deploy/operator/cli/check_command.h"
+#include "deploy/operator/cli/decode_command.h"
 #include "deploy/operator/cli/doctor_command.h"
 #include "deploy/operator/cli/operator_commands.h"
 #include "deploy/operator/cli/plan_command.h"
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
   cli::add_segment_command(app, exit_status);
   cli::add_plan_command(app, exit_status);
   cli::add_check_command(app, exit_status);
+  cli::add_decode_command(app, exit_status);
   cli::add_watch_command(app, exit_status);
   cli::add_doctor_command(app, exit_status);
   return lodesman::process_main(app, argc, argv, [&] { return exit_status; });
