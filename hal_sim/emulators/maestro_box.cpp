@@ -79,7 +79,7 @@ void say_u16(std::vector<Utterance>& said, Time at, std::uint16_t value) {
 
 }  // namespace
 
-MaestroBox::MaestroBox(const MaestroOptions& options, Time now)
+MaestroBox::MaestroBox(const MaestroBoxOptions& options, Time now)
     : options_{options}, random_errors_{"maestro error", options.seed} {
   power_cycle(now);
 }

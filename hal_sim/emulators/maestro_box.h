@@ -34,7 +34,7 @@ struct MaestroChannel {
   std::uint16_t range_quarter_us = 1905;
 };
 
-struct MaestroOptions {
+struct MaestroBoxOptions {
   static constexpr std::size_t kMaxChannels = 24;
 
   MaestroMode mode = MaestroMode::kUsbDualPort;
@@ -60,7 +60,7 @@ class MaestroBox final : public FaultyDevice {
     kTimeOut = 0x0020,
   };
 
-  MaestroBox(const MaestroOptions& options, Time now);
+  MaestroBox(const MaestroBoxOptions& options, Time now);
 
   // What goes out now, in quarters of a microsecond; 0: no pulses.
   [[nodiscard]] std::uint16_t pulse_quarter_us(std::size_t channel) const noexcept;
@@ -68,7 +68,7 @@ class MaestroBox final : public FaultyDevice {
   // Its supply dips: no pulses anywhere, and the error register is clear.
   void brown_out(Time now) noexcept;
   // Owner's settings, changed while it runs.
-  [[nodiscard]] MaestroOptions& options() noexcept { return options_; }
+  [[nodiscard]] MaestroBoxOptions& options() noexcept { return options_; }
 
   void step(Time now, std::vector<Utterance>& said) override;
   void receive(std::span<const std::uint8_t> bytes, Time at, std::vector<Utterance>& said) override;
@@ -98,10 +98,10 @@ class MaestroBox final : public FaultyDevice {
   void watch_time_out(Time now) noexcept;
   void err_at_random(Time now) noexcept;
 
-  MaestroOptions options_;
+  MaestroBoxOptions options_;
   RandomStream random_errors_;
   emulated::Recurrence errors_due_;
-  std::array<std::uint16_t, MaestroOptions::kMaxChannels> pulses_{};  // quarters of a microsecond
+  std::array<std::uint16_t, MaestroBoxOptions::kMaxChannels> pulses_{};  // quarters of a microsecond
   std::uint16_t errors_ = 0;
   std::vector<std::uint8_t> held_;  // of the command that is coming in
   Time heard_{};                    // the last valid command

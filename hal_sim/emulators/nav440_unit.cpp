@@ -38,7 +38,7 @@ constexpr std::uint16_t kCalibrateStore = 0x000E;
 
 }  // namespace
 
-Nav440Unit::Nav440Unit(const Nav440Options& options, Time now, Duration on_for)
+Nav440Unit::Nav440Unit(const Nav440UnitOptions& options, Time now, Duration on_for)
     : options_{options},
       stored_{options.divider, options.baud_code,
               options.packet_type == 0 ? usual_packet(options.model) : options.packet_type},

@@ -29,7 +29,7 @@ struct EmulatedMotion {
   Time measured{};
 };
 
-struct Nav440Options {
+struct Nav440UnitOptions {
   std::uint32_t serial_number = 440123456;
   // Its first word says what kind it is: AHRS440 streams A1, VG440 A2, any other N1.
   std::string model = "NAV440 2.0.1 8350-2000";
@@ -55,7 +55,7 @@ struct Nav440Options {
 class Nav440Unit final : public FaultyDevice {
  public:
   // Switched on `on_for` before `now`.
-  Nav440Unit(const Nav440Options& options, Time now, Duration on_for = Duration::zero());
+  Nav440Unit(const Nav440UnitOptions& options, Time now, Duration on_for = Duration::zero());
 
   void set_motion(const EmulatedMotion& motion) noexcept { motion_ = motion; }
 
@@ -99,7 +99,7 @@ class Nav440Unit final : public FaultyDevice {
   [[nodiscard]] emulated::Nav440Values values_for(std::uint16_t type, Time at);
   [[nodiscard]] double yaw_error_deg(Time at);
 
-  Nav440Options options_;
+  Nav440UnitOptions options_;
   emulated::Nav440Settings stored_;
   emulated::Nav440Settings live_;
   emulated::UuReceiver receiver_;

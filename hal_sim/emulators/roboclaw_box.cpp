@@ -88,7 +88,7 @@ void put_u16(std::vector<std::uint8_t>& bytes, int value) {
 
 }  // namespace
 
-RoboClawBox::RoboClawBox(const RoboClawOptions& options, Time now) : options_{options} {
+RoboClawBox::RoboClawBox(const RoboClawBoxOptions& options, Time now) : options_{options} {
   power_cycle(now);
 }
 

@@ -12,7 +12,7 @@
 
 namespace lodesman {
 
-struct RoboClawOptions {
+struct RoboClawBoxOptions {
   std::uint8_t address = 0x80;             // [0x80, 0x87]
   std::uint8_t stored_time_out_100ms = 0;  // that it starts with; 0: it does not stop by itself
   std::size_t status_bytes = 4;            // 2 in older firmware
@@ -28,7 +28,7 @@ class RoboClawBox final : public FaultyDevice {
  public:
   static constexpr std::size_t kMotors = 2;
 
-  RoboClawBox(const RoboClawOptions& options, Time now);
+  RoboClawBox(const RoboClawBoxOptions& options, Time now);
 
   // [-32767, 32767] what a motor gets now.
   [[nodiscard]] int duty(std::size_t motor) const noexcept;
@@ -52,7 +52,7 @@ class RoboClawBox final : public FaultyDevice {
   [[nodiscard]] Bytes answer(std::uint8_t command) const;
   void watch_time_out(Time now) noexcept;
 
-  RoboClawOptions options_;
+  RoboClawBoxOptions options_;
   std::array<int, kMotors> duty_{};
   std::uint8_t time_out_100ms_ = 0;
   Bytes held_;         // of the packet that is coming in

@@ -14,7 +14,9 @@
 
 #include "deploy/operator/bench/file_check.h"
 #include "deploy/operator/cli/common_options.h"
+#include "deploy/operator/decode/maestro_lines.h"
 #include "deploy/operator/decode/nav440_lines.h"
+#include "deploy/operator/decode/roboclaw_lines.h"
 #include "mid_level/base/startup_error.h"
 
 namespace lodesman::cli {
@@ -27,6 +29,8 @@ struct Protocol {
 };
 constexpr std::array kProtocols{
     Protocol{"nav440", nav440_lines},
+    Protocol{"maestro", maestro_lines},
+    Protocol{"roboclaw", roboclaw_lines},
 };
 
 struct DecodeOptions {

@@ -34,7 +34,7 @@ void survives(EmulatedDevice& device, const Bytes& telling, const Bytes& asked,
 }
 
 TEST_CASE("any bytes: a NAV440 goes on", "[hal_sim][emulators]") {
-  Nav440Options options;
+  Nav440UnitOptions options;
   options.divider = 0;
   Nav440Unit unit{options, at_ms(0)};
   const Bytes ping = hex("55 55 50 4B 00 9E F4");
@@ -46,7 +46,7 @@ TEST_CASE("any bytes: a NAV440 goes on", "[hal_sim][emulators]") {
 TEST_CASE("any bytes: a Maestro goes on", "[hal_sim][emulators]") {
   std::mt19937 random{7};
   const Bytes telling = hex("84 9F AA 0C FF 90 8A 02 00");
-  MaestroOptions options;
+  MaestroBoxOptions options;
   options.channels = 12;
   MaestroBox box{options, at_ms(0)};
   for (int lot = 0; lot < 200; ++lot) {

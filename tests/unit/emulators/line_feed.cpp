@@ -29,8 +29,8 @@ struct FedLine {
       : unit{options(seed), at_ms(0), std::chrono::minutes{1}},
         wire{"ahrs", seed},
         timetable{faults, FaultDevice::kAhrs} {}
-  [[nodiscard]] static Nav440Options options(std::uint64_t seed) {
-    Nav440Options options;
+  [[nodiscard]] static Nav440UnitOptions options(std::uint64_t seed) {
+    Nav440UnitOptions options;
     options.packet_type = 0x4131;
     options.seed = seed;
     return options;
@@ -169,7 +169,7 @@ TEST_CASE("line feed: a fault is added while it runs, and taken back", "[hal_sim
 
 TEST_CASE("line feed: a box whose line stalls stops by itself", "[hal_sim][emulators]") {
   const auto line = std::make_unique<MemoryLine>();
-  MaestroOptions options;
+  MaestroBoxOptions options;
   options.time_out_10ms = 50;
   options.channel[0].home = MaestroHome::kGoTo;
   MaestroBox box{options, at_ms(0)};

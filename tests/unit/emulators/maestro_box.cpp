@@ -10,8 +10,8 @@ namespace {
 using namespace lodesman::testing;
 
 // As its owner is told to set it: neutral pulses at home, a time-out of half a second.
-[[nodiscard]] MaestroOptions set_up() {
-  MaestroOptions options;
+[[nodiscard]] MaestroBoxOptions set_up() {
+  MaestroBoxOptions options;
   options.time_out_10ms = 50;
   options.channel[0].home = MaestroHome::kGoTo;
   options.channel[1].home = MaestroHome::kGoTo;
@@ -20,7 +20,7 @@ using namespace lodesman::testing;
 
 struct Box {
   MaestroBox box;
-  explicit Box(const MaestroOptions& options = set_up()) : box{options, at_ms(0)} {}
+  explicit Box(const MaestroBoxOptions& options = set_up()) : box{options, at_ms(0)} {}
   [[nodiscard]] Bytes says(const char* sent, std::int64_t ms = 1) {
     return answer(box, hex(sent), at_ms(ms));
   }
@@ -74,7 +74,7 @@ TEST_CASE("maestro: tells position, movement, errors and script", "[hal_sim][emu
 
 TEST_CASE("maestro: an error sends the outputs home until the next target, and is told once",
           "[hal_sim][emulators]") {
-  MaestroOptions options = set_up();
+  MaestroBoxOptions options = set_up();
   options.channel[2].home = MaestroHome::kOff;
   options.channel[3].home = MaestroHome::kIgnore;
   Box b{options};
@@ -101,7 +101,7 @@ TEST_CASE("maestro: an error sends the outputs home until the next target, and i
 
 TEST_CASE("maestro: a larger box takes targets for several channels and a PWM",
           "[hal_sim][emulators]") {
-  MaestroOptions options = set_up();
+  MaestroBoxOptions options = set_up();
   options.channels = 12;
   Box b{options};
   CHECK(b.says("9F 02 00 14 32 2A 24 8A 00 01 00 10 A1") == hex("00 00"));
@@ -111,7 +111,7 @@ TEST_CASE("maestro: a larger box takes targets for several channels and a PWM",
 }
 
 TEST_CASE("maestro: with a check on, what fails it is an error", "[hal_sim][emulators]") {
-  MaestroOptions options = set_up();
+  MaestroBoxOptions options = set_up();
   options.crc = true;
   Box b{options};
   CHECK(b.says("84 00 14 32 00").empty());
@@ -126,7 +126,7 @@ TEST_CASE("maestro: with a check on, what fails it is an error", "[hal_sim][emul
 }
 
 TEST_CASE("maestro: the check of a packet with a device number", "[hal_sim][emulators]") {
-  MaestroOptions options = set_up();
+  MaestroBoxOptions options = set_up();
   options.crc = true;
   options.device_number = 1;
   Box b{options};
@@ -160,7 +160,7 @@ TEST_CASE("maestro: any valid command keeps it going, whatever it asks", "[hal_s
 }
 
 TEST_CASE("maestro: without a time-out it runs on", "[hal_sim][emulators]") {
-  MaestroOptions options = set_up();
+  MaestroBoxOptions options = set_up();
   options.time_out_10ms = 0;
   Box b{options};
   CHECK(b.says("84 00 14 32", 0).empty());
@@ -170,7 +170,7 @@ TEST_CASE("maestro: without a time-out it runs on", "[hal_sim][emulators]") {
 
 TEST_CASE("maestro: as it leaves the factory it ignores what comes over USB",
           "[hal_sim][emulators]") {
-  MaestroOptions options;
+  MaestroBoxOptions options;
   options.mode = MaestroMode::kUartDetect;
   Box b{options};
   CHECK(b.says("AA A1").empty());

@@ -18,8 +18,8 @@ const Bytes kFieldsSet = hex("55 55 53 46 03 01 00 01 EF 6A");
 const Bytes kNakOfSet = hex("55 55 15 15 02 53 46 6C AF");
 const Bytes kNakOfGet = hex("55 55 15 15 02 47 50 D1 EF");
 
-[[nodiscard]] Nav440Options plain() {
-  Nav440Options options;
+[[nodiscard]] Nav440UnitOptions plain() {
+  Nav440UnitOptions options;
   options.packet_type = 0x4131;
   options.flicker = false;
   return options;
@@ -94,7 +94,7 @@ TEST_CASE("nav440 unit: gives each packet that it is asked for", "[hal_sim][emul
 }
 
 TEST_CASE("nav440 unit: its version", "[hal_sim][emulators]") {
-  Nav440Options options = plain();
+  Nav440UnitOptions options = plain();
   options.version = {20, 2, 1, 0, 10};
   Nav440Unit unit{options, at_ms(0)};
   CHECK(answer(unit, hex("55 55 47 50 02 56 52 42 87"), at_ms(1)) ==
@@ -193,7 +193,7 @@ TEST_CASE("nav440 unit: what does not fit the line is refused by newer firmware 
                         Row{2, 0x4E31, 1, false}, Row{3, 0x4E31, 1, true}, Row{1, 0x4E31, 2, false},
                         Row{1, 0x4131, 2, false}, Row{1, 0x4130, 2, true}, Row{0, 0x4131, 4, false},
                         Row{0, 0x4131, 5, true}, Row{0, 0x5331, 4, true}}) {
-    Nav440Options options = plain();
+    Nav440UnitOptions options = plain();
     options.divider = 0;
     options.baud_code = row.baud_code;
     options.packet_type = row.type;
@@ -217,7 +217,7 @@ TEST_CASE("nav440 unit: a change of speed counts at once", "[hal_sim][emulators]
 }
 
 TEST_CASE("nav440 unit: a vertical gyro has no magnetometer", "[hal_sim][emulators]") {
-  Nav440Options options = plain();
+  Nav440UnitOptions options = plain();
   options.packet_type = 0;
   options.model = "VG440 1.0.0 8350-1000";
   Nav440Unit unit{options, at_ms(0)};

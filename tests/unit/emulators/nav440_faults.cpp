@@ -15,11 +15,11 @@ using namespace lodesman::testing;
 // Turning, and long switched on.
 struct FaultyUnit {
   Nav440Unit unit;
-  explicit FaultyUnit(Nav440Options options = {})
+  explicit FaultyUnit(Nav440UnitOptions options = {})
       : unit{of(std::move(options)), at_ms(0), std::chrono::minutes{1}} {
     motion(to_rad(10.0));
   }
-  [[nodiscard]] static Nav440Options of(Nav440Options options) {
+  [[nodiscard]] static Nav440UnitOptions of(Nav440UnitOptions options) {
     options.packet_type = 0x4131;
     return options;
   }

@@ -14,8 +14,8 @@ namespace {
 using namespace lodesman::testing;
 using std::chrono::seconds;
 
-[[nodiscard]] Nav440Options streaming(std::uint16_t type = 0x4131) {
-  Nav440Options options;
+[[nodiscard]] Nav440UnitOptions streaming(std::uint16_t type = 0x4131) {
+  Nav440UnitOptions options;
   options.packet_type = type;
   options.flicker = false;
   return options;
@@ -57,7 +57,7 @@ TEST_CASE("nav440 unit: streams on the grid of its own start", "[hal_sim][emulat
 
 TEST_CASE("nav440 unit: its kind says what it streams", "[hal_sim][emulators]") {
   const auto streamed = [](const char* model) {
-    Nav440Options options = streaming(0);
+    Nav440UnitOptions options = streaming(0);
     options.model = model;
     Nav440Unit unit{options, at_ms(0)};
     const Bytes frame = said_until(unit, at_ms(20)).at(0).bytes;
@@ -69,7 +69,7 @@ TEST_CASE("nav440 unit: its kind says what it streams", "[hal_sim][emulators]") 
 }
 
 TEST_CASE("nav440 unit: its clock drifts, wraps, or stands", "[hal_sim][emulators]") {
-  Nav440Options options = streaming();
+  Nav440UnitOptions options = streaming();
   options.clock_drift_ppm = 1000.0;
   Nav440Unit fast{options, at_ms(0)};
   const auto said = said_until(fast, at_ms(10'000));
@@ -92,7 +92,7 @@ TEST_CASE("nav440 unit: heading is magnetic in A and true in N", "[hal_sim][emul
   motion.heading_true_rad = to_rad(100.0);
   for (const auto& [type, yaw_deg] : {std::pair{0x4131, 107.6}, std::pair{0x4130, 107.6},
                                       std::pair{0x4E31, 100.0}, std::pair{0x4E30, 100.0}}) {
-    Nav440Options options = streaming(static_cast<std::uint16_t>(type));
+    Nav440UnitOptions options = streaming(static_cast<std::uint16_t>(type));
     options.declination_deg = -7.6;
     Nav440Unit unit{options, at_ms(0)};
     unit.set_motion(motion);
@@ -193,7 +193,7 @@ TEST_CASE("nav440 unit: a software reset comes 10 ms after its echo", "[hal_sim]
 }
 
 TEST_CASE("nav440 unit: older firmware overflows a line that is too slow", "[hal_sim][emulators]") {
-  Nav440Options options = streaming();
+  Nav440UnitOptions options = streaming();
   options.newer_firmware = false;
   options.baud_code = 0;  // 24 A1 a second at most, and 50 are asked for
   Nav440Unit unit{options, at_ms(0), seconds{60}};
@@ -214,7 +214,7 @@ TEST_CASE("nav440 unit: older firmware overflows a line that is too slow", "[hal
 TEST_CASE("nav440 unit: its last bits flicker, the same way with the same seed",
           "[hal_sim][emulators]") {
   const auto frames = [](std::uint64_t seed) {
-    Nav440Options options = streaming();
+    Nav440UnitOptions options = streaming();
     options.flicker = true;
     options.seed = seed;
     options.constant_itow = true;

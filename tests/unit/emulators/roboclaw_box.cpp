@@ -26,7 +26,7 @@ const Bytes kDone = hex("FF");
 struct Claw {
   RoboClawBox box;
   std::int64_t ms = 0;
-  explicit Claw(const RoboClawOptions& options = {}) : box{options, at_ms(0)} {}
+  explicit Claw(const RoboClawBoxOptions& options = {}) : box{options, at_ms(0)} {}
   // Each packet after a pause.
   [[nodiscard]] Bytes says(const Bytes& sent, std::int64_t pause_ms = 20) {
     ms += pause_ms;
@@ -64,7 +64,7 @@ TEST_CASE("roboclaw: what fails its check is not done, and not answered", "[hal_
 
 TEST_CASE("roboclaw: answers at its own address, and skips packets for others whole",
           "[hal_sim][emulators]") {
-  RoboClawOptions options;
+  RoboClawBoxOptions options;
   options.address = 0x87;
   Claw c{options};
   CHECK(c.says(hex("80 18")).empty());
@@ -106,7 +106,7 @@ TEST_CASE("roboclaw: tells what it is asked", "[hal_sim][emulators]") {
   REQUIRE(c.obeys("80 22 40 00 C0 00") == kDone);
   CHECK(c.tells("80 30", hex("40 00 C0 00")));
   CHECK(c.tells("80 31", hex("01 F4 01 F4")));  // 5 A each
-  RoboClawOptions older;
+  RoboClawBoxOptions older;
   older.status_bytes = 2;
   Claw old{older};
   CHECK(old.tells("80 5A", hex("00 00")));
@@ -155,7 +155,7 @@ TEST_CASE("roboclaw: its battery sags under load", "[hal_sim][emulators]") {
 }
 
 TEST_CASE("roboclaw: without power, in the wrong mode, and reset", "[hal_sim][emulators]") {
-  RoboClawOptions options;
+  RoboClawBoxOptions options;
   options.stored_time_out_100ms = 5;
   Claw c{options};
   REQUIRE(c.says(hex("80 0E 0A B9 1F")) == kDone);
