@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faults that such boxes were seen to have, one test a fault; the letters are
-// docs/wire/maestro.md's.
+// Faults of answers, settings and speed controllers that such boxes were seen to have.
 #include "tests/support/catch.h"
 #include "tests/unit/maestro/scripted_box.h"
 
 namespace lodesman {
 namespace {
 
+using testing::kAhead;
+using testing::kAheadPulse;
 using testing::MaestroBench;
-using testing::MaestroBoxSettings;
 using Bytes = std::vector<std::uint8_t>;
 using State = Maestro::State;
-
-constexpr ThrustCommand kAhead{191, 191};  // 0.5
-constexpr int kAheadPulse = 6000 + 15 * 63;
 
 // Steps neutral until the driver says what ails the box, or so many steps.
 [[nodiscard]] bool comes_to(MaestroBench& bench, DeviceFault fault, int most = 200) {
@@ -262,140 +259,6 @@ TEST_CASE("T13: a command that is there from the beginning waits until neutral w
     CHECK(other.nearly_neutral());
   }
   CHECK(other.status == CommandStatus::kTaken);
-}
-
-TEST_CASE("T15: a box that has forgotten its targets is found out within a second", "[maestro]") {
-  for (const int home : {0, 6000}) {
-    MaestroBench bench;
-    REQUIRE(bench.start());
-    for (int i = 0; i < 23; ++i) {
-      REQUIRE(bench.step(kAhead) == CommandStatus::kTaken);
-    }
-    bench.box.reset();
-    bench.box.pulses.fill(home);
-    int steps = 0;
-    while (bench.step(kAhead) == CommandStatus::kTaken) {
-      REQUIRE(++steps < 20);
-    }
-    CHECK(bench.driver.fault() == DeviceFault::kBoxReset);
-    CHECK(bench.neutral());
-    CHECK(bench.driver.counts().resets == 1);
-    // All over again, and not before neutral was commanded.
-    for (int i = 0; i < 200; ++i) {
-      CHECK(bench.step(kAhead) == CommandStatus::kNotReady);
-      CHECK(bench.nearly_neutral());
-      CHECK(bench.driver.fault() == DeviceFault::kBoxReset);
-    }
-    CHECK(bench.step(kNeutralThrust) == CommandStatus::kTaken);
-    CHECK(bench.step(kAhead) == CommandStatus::kTaken);
-  }
-}
-
-TEST_CASE("T15: one channel that is not obeyed is found out too, one wrong answer is not",
-          "[maestro]") {
-  MaestroBench bench;
-  REQUIRE(bench.start());
-  bool once = true;
-  bench.damage = [&](Bytes& reply) {
-    if (std::exchange(once, false)) {
-      reply[1] = static_cast<std::uint8_t>(reply[1] ^ 0x40U);
-    }
-  };
-  bench.step(kAhead);
-  for (int i = 0; i < 40; ++i) {
-    CHECK(bench.step(kAhead) == CommandStatus::kTaken);
-  }
-  CHECK_FALSE(once);
-  bench.box.refused_channel = 1;
-  for (int i = 0; i < 20 && bench.step({255, 255}) == CommandStatus::kTaken; ++i) {
-  }
-  CHECK(bench.driver.fault() == DeviceFault::kBoxReset);
-}
-
-TEST_CASE("S5: a box that is gone says so at once, and begins anew when it is back", "[maestro]") {
-  MaestroBench bench;
-  REQUIRE(bench.start());
-  REQUIRE(bench.step(kAhead) == CommandStatus::kTaken);
-  bench.line->unplug();
-  CHECK(bench.step(kAhead) == CommandStatus::kDisconnected);
-  CHECK(bench.driver.fault() == DeviceFault::kUnplugged);
-  CHECK(bench.driver.state() == State::kDisconnected);
-  bench.pass(600);
-  bench.line->plug();
-  for (int i = 0; i < 100; ++i) {
-    CHECK(bench.step(kAhead) == CommandStatus::kNotReady);
-    CHECK(bench.nearly_neutral());
-  }
-  CHECK(bench.start());
-  CHECK(bench.driver.counts().starts == 2);
-}
-
-TEST_CASE("S6: a full line tears no command, and the newest is sent when there is room",
-          "[maestro]") {
-  for (std::size_t room = 0; room <= 24; ++room) {
-    INFO("room for " << room);
-    MaestroBench bench;
-    REQUIRE(bench.start());
-    REQUIRE(bench.step(kAhead) == CommandStatus::kTaken);
-    bench.answers = false;
-    bench.line->set_outward_room(room);
-    int refused = 0;
-    for (int i = 0; i < 5; ++i) {
-      refused += bench.step({200, 200}, 40) == CommandStatus::kNotReady ? 1 : 0;
-    }
-    CHECK(refused >= 3);
-    CHECK(bench.driver.fault() == DeviceFault::kLineFull);
-    bench.answers = true;
-    bench.pass(1);
-    bench.line->set_outward_room(1000);
-    CHECK(bench.step({60, 60}) == CommandStatus::kTaken);
-    CHECK(bench.box.pulses[0] == 6000 - 15 * 67);
-    CHECK(bench.box.pulses[1] == 6000 - 15 * 67);
-    for (int i = 0; i < 40; ++i) {
-      CHECK(bench.step({60, 60}) == CommandStatus::kTaken);
-    }
-    CHECK(bench.driver.counts().error_reports == 0);
-    CHECK(bench.driver.counts().resets == 0);
-  }
-}
-
-TEST_CASE("U3: another device on the port is not taken for the box, nor given targets",
-          "[maestro]") {
-  MaestroBench bench{{.deaf = true}};
-  for (int i = 0; i < 100; ++i) {
-    for (int byte = 0; byte < 39; ++byte) {
-      bench.line->send(static_cast<std::uint8_t>(byte * 7), bench.now + from_seconds(0.001 * byte));
-    }
-    CHECK(bench.step() == CommandStatus::kNotReady);
-    for (const std::uint8_t byte : bench.sent) {
-      CHECK(byte == 0xA1);
-    }
-  }
-  CHECK(bench.driver.fault() == DeviceFault::kWrongDevice);
-}
-
-TEST_CASE("U6: a box that slept begins anew, at neutral", "[maestro]") {
-  MaestroBench bench;
-  REQUIRE(bench.start());
-  for (int i = 0; i < 20; ++i) {
-    REQUIRE(bench.step(kAhead) == CommandStatus::kTaken);
-  }
-  bench.answers = false;
-  for (int i = 0; i < 60; ++i) {
-    bench.step(kAhead);
-  }
-  CHECK(bench.status == CommandStatus::kNotReady);
-  CHECK(bench.driver.fault() == DeviceFault::kNoAnswer);
-  // It wakes with outputs off, to whatever was said last.
-  bench.box.reset();
-  bench.box.pulses.fill(0);
-  bench.answers = true;
-  for (int i = 0; i < 100; ++i) {
-    bench.step(kAhead);
-    CHECK(bench.status == CommandStatus::kNotReady);
-    CHECK((bench.nearly_neutral() || bench.box.pulses[0] == 0));
-  }
-  CHECK(bench.start());
 }
 
 }  // namespace

@@ -15,6 +15,9 @@
 
 namespace lodesman::testing {
 
+inline constexpr ThrustCommand kAhead{191, 191};  // 63 of 127
+inline constexpr int kAheadPulse = 6000 + 15 * 63;
+
 struct MaestroBoxSettings {
   bool deaf = false;          // serial mode "UART, detect baud rate"
   int time_out_ms = 500;      // 0: none
