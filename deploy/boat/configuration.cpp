@@ -112,6 +112,7 @@ namespace {
   config.mission = read_mission_defaults(root.table("mission"));
   config.speed_limit_m_s = root.table("mission").number("speed_limit_m_s", Range::above(0.0, 10.0));
   config.speeds = read_speed_table(root.table("vehicle"));
+  config.thrust_shape = read_thrust_shape(root.table("vehicle"));
   config.low = read_low_level_options(root);
   config.high = read_high_level_options(root, config.speeds);
   config.document.require_all_keys_read();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "deploy/boat/program_options.h"
+#include "drivers/hal/thrust_shape.h"
 #include "high_level/tasks/high_level.h"
 #include "low_level/tasks/low_level.h"
 #include "mid_level/base/geodesy.h"
@@ -67,6 +68,7 @@ struct BoatConfig {
   MissionDefaults mission;
   double speed_limit_m_s = 0.0;
   SpeedTable speeds = SpeedTable::proportional(1.0);
+  ThrustShapeOptions thrust_shape;
   LowLevelOptions low;  // what of the levels does not depend on the voyage
   HighLevelOptions high;
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/boat/level_options.h"
 
+#include "drivers/hal/thrust_shape.h"
+#include "mid_level/base/startup_error.h"
+
 namespace lodesman {
 
 SegmentationOptions read_segmentation_options(const TomlTable& table) {
@@ -20,6 +23,23 @@ SegmentationOptions read_segmentation_options(const TomlTable& table) {
       .stripe_fraction = table.number("stripe_fraction", Range::above(0.0, 1.0)),
       .stripe_max_beams = count("stripe_max_beams", 0, kMaxBeams),
   };
+}
+
+ThrustShapeOptions read_thrust_shape(const TomlTable& vehicle) {
+  ThrustShapeOptions shape;
+  for (const auto& [in, out] : vehicle.pairs("thrust_curve", Range::between(-1.0, 1.0), 0,
+                                             ThrustShapeOptions::kMaxCurvePoints)) {
+    shape.curve[shape.curve_points++] = {in, out};
+  }
+  shape.deadband = vehicle.number("thrust_deadband", Range::between(0.0, 0.9));
+  shape.slew_per_s = vehicle.number("thrust_slew_per_s", Range::between(0.0, 100.0));
+  shape.zero_pause = vehicle.duration("thrust_zero_pause_s", Range::between(0.0, 10.0));
+  try {
+    static_cast<void>(ThrustShape{shape});
+  } catch (const StartupError& error) {
+    vehicle.refuse("thrust_curve", error.what());
+  }
+  return shape;
 }
 
 LowLevelOptions read_low_level_options(const TomlTable& configuration) {

@@ -2,13 +2,16 @@
 // What the configuration says of the levels. One thread, at start-up; throws StartupError.
 #pragma once
 
+#include "drivers/hal/thrust_shape.h"
 #include "high_level/tasks/high_level.h"
 #include "low_level/tasks/low_level.h"
 #include "mid_level/config/toml_document.h"
 
 namespace lodesman {
 
-// Reads [segmentation], [zones] and [tracks]; the scene comes from elsewhere.
+// What the drivers of real thruster boxes make of a command, from section [vehicle].
+[[nodiscard]] ThrustShapeOptions read_thrust_shape(const TomlTable& vehicle);
+// Reads [segmentation], [zones], [battery] and [tracks]; the scene comes from elsewhere.
 [[nodiscard]] LowLevelOptions read_low_level_options(const TomlTable& configuration);
 // The table [segmentation] alone.
 [[nodiscard]] SegmentationOptions read_segmentation_options(const TomlTable& table);

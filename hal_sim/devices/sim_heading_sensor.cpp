@@ -23,8 +23,9 @@ constexpr double kMaxRateCount = 32767.0;
 
 }  // namespace
 
-SimHeadingSensor::SimHeadingSensor(const Scenario& scenario, SimLink& link)
-    : feed_{link, link.heading_due, kPeriod, FaultSchedule{scenario.faults, FaultDevice::kAhrs}} {}
+SimHeadingSensor::SimHeadingSensor(const Scenario& scenario, SimLink& link, bool like_nav440)
+    : feed_{link, link.heading_due, kPeriod, FaultSchedule{scenario.faults, FaultDevice::kAhrs}},
+      like_nav440_{like_nav440} {}
 
 Reading<Attitude> SimHeadingSensor::poll(Time now) noexcept {
   const SampleFeed::Due due = feed_.poll(now);
@@ -33,8 +34,10 @@ Reading<Attitude> SimHeadingSensor::poll(Time now) noexcept {
   }
   Attitude attitude;
   attitude.measured = due.sample.stamp;
-  attitude.heading_rad = as_sent_angle_rad(due.sample.heading_rad);
-  attitude.yaw_rate_rad_s = as_sent_rate_rad_s(due.sample.yaw_rate_rad_s);
+  const double heading_rad = due.sample.heading_rad;
+  const double yaw_rate_rad_s = due.sample.yaw_rate_rad_s;
+  attitude.heading_rad = like_nav440_ ? as_sent_angle_rad(heading_rad) : heading_rad;
+  attitude.yaw_rate_rad_s = like_nav440_ ? as_sent_rate_rad_s(yaw_rate_rad_s) : yaw_rate_rad_s;
   return {ReadStatus::kFresh, attitude};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulated AHRS: the true heading and yaw rate at 50 Hz, as coarse as the NAV440 sends them.
+// A simulated AHRS: the true heading and yaw rate at 50 Hz, as coarse as the NAV440 sends them, or
+// exact.
 // Polled by the one thread that owns it.
 #pragma once
 
@@ -12,11 +13,12 @@ namespace lodesman {
 class SimHeadingSensor final : public HeadingSensor {
  public:
   // The link must outlive the sensor.
-  SimHeadingSensor(const Scenario& scenario, SimLink& link);
+  SimHeadingSensor(const Scenario& scenario, SimLink& link, bool like_nav440 = true);
   [[nodiscard]] Reading<Attitude> poll(Time now) noexcept override;
 
  private:
   SampleFeed feed_;
+  bool like_nav440_;
 };
 
 }  // namespace lodesman

@@ -25,7 +25,9 @@ void ThrusterTask::step(Time now) noexcept {
   }
   look(now);
   obey_orders(now);
-  ThrustApplied applied = wanted(now);
+  // A box that was not ready, or gone, gets neutral first.
+  const bool is_ready = thrusters_ == nullptr || box_ == CommandStatus::kTaken;
+  ThrustApplied applied = is_ready ? wanted(now) : ThrustApplied{ThrustReason::kDeviceFailed};
   const ThrustCommand thrust = map_thrust(applied.surge_ref, applied.head_ref);
   applied.left = thrust.left;
   applied.right = thrust.right;

@@ -120,6 +120,7 @@ class RunOutput {
     }
   }
 
+  void say(const std::string& news) { line_.say(news); }
   void show(const RunProgress& progress) {
     if (progress.notice && progress.notice->t_s > noticed_s_) {
       noticed_s_ = progress.notice->t_s;
@@ -213,12 +214,12 @@ class RunOutput {
   write_whole_file(directory / "config.toml", configuration.to_text());
   write_whole_file(directory / "scenario.toml", scenario_text);
 
-  if (!options.wait_start && !options.common.quiet) {
-    fmt::print(stderr, "the thrusters are simulated: armed by the launcher\n");
-  }
   catch_stop_signals();
   remove_dead_runs();
   RunOutput output{options, configuration, scenario, directory};
+  if (!options.wait_start) {
+    output.say("the thrusters are simulated: armed by the launcher");
+  }
   RunRecord record = run(options, configuration, scenario, directory, output);
   record.result.scenario = scenario.name;
   record.result.profile = options.profile;

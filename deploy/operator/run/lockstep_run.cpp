@@ -9,7 +9,7 @@ namespace lodesman::cli {
 namespace {
 
 constexpr Duration kShowPeriod = std::chrono::seconds{1};     // virtual
-constexpr Duration kStartPatience = std::chrono::seconds{5};  // for the mission to begin
+constexpr Duration kStartPatience = std::chrono::seconds{20};  // for the devices to be ready
 
 }  // namespace
 
