@@ -70,9 +70,10 @@ void Arming::latch(Time now) noexcept {
 
 void Arming::look(const ArmingView& view, Time now) noexcept {
   view_ = view;
+  const bool is_tried = view.box == ArmingView::Box::kNotReady;
   if (view.box == ArmingView::Box::kReady) {
     box_was_ready_ = now;
-  } else if (now - box_was_ready_ > kArmedMemory) {
+  } else if (now - box_was_ready_ > kArmedMemory + (is_tried ? kBoxTrial_max : Duration::zero())) {
     happen(Event::kBoxLost, ThrustCause::kBoxLost, now);
   }
   const bool abort_stands = view.aborted != Time{} && view.aborted >= status_.armed;

@@ -15,6 +15,8 @@ namespace lodesman {
 // and put back, or a low level that was started anew, goes on; what takes longer has to be armed by
 // somebody who looks.
 inline constexpr Duration kArmedMemory = std::chrono::seconds{5};
+// So much longer where the box is there again and is being tried anew.
+inline constexpr Duration kBoxTrial_max = std::chrono::seconds{5};
 // An order that was not taken in time is void.
 inline constexpr Duration kThrustOrderPatience = std::chrono::seconds{2};
 
