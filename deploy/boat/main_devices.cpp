@@ -126,7 +126,7 @@ int main(int argc, char** argv) {
   app.add_option("--control", options.control, "A named pipe to make: a line a fault, or clear")
       ->type_name("FILE");
   app.footer(
-      "Example: lodesman-devices --scenario paper-static --ports /tmp/bench\n"
-      "         echo 'ahrs flip rate=0.01 for=5' > /tmp/bench/control");
+      "Example: lodesman-devices --scenario paper-static --ports ports --control control\n"
+      "         echo 'ahrs flip rate=0.01 for=5' > control");
   return lodesman::process_main(app, argc, argv, [&] { return lodesman::run(options); });
 }

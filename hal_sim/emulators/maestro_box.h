@@ -101,7 +101,8 @@ class MaestroBox final : public FaultyDevice {
   MaestroBoxOptions options_;
   RandomStream random_errors_;
   emulated::Recurrence errors_due_;
-  std::array<std::uint16_t, MaestroBoxOptions::kMaxChannels> pulses_{};  // quarters of a microsecond
+  std::array<std::uint16_t, MaestroBoxOptions::kMaxChannels>
+      pulses_{};  // quarters of a microsecond
   std::uint16_t errors_ = 0;
   std::vector<std::uint8_t> held_;  // of the command that is coming in
   Time heard_{};                    // the last valid command

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real drivers against a bench whose devices are emulated to the byte, under way: each program
-// killed and frozen, each cable pulled and put back, at random moments; how soon the propellers stand
-// still, measured at the emulated box's output. Prints a table; status 1 where a bound is broken.
+// killed and frozen, each cable pulled and put back, at random moments; how soon the propellers
+// stand still, measured at the emulated box's output. Prints a table; status 1 where a bound is
+// broken.
 //   measure_failsafes [TIMES [maestro|roboclaw]]
 // TIMES: of each kill and each pulled cable; of each freezing half as often.
 #include <fcntl.h>
@@ -77,7 +78,8 @@ class BenchedBoat {
   void await_drive() {
     require(eventually([&] {
               const auto* now = truth_->latest();
-              return now != nullptr && now->value.thrust_left > 140 && now->value.thrust_right > 140;
+              return now != nullptr && now->value.thrust_left > 140 &&
+                     now->value.thrust_right > 140;
             }),
             "the boat does not sail");
   }

@@ -117,7 +117,7 @@ const std::vector<Arrow>& arrows() {
         "mid_level/geometry", "mid_level/messages"}},
       {"hal_sim/emulators",
        {"hal_sim/world", "hal_sim/scenario", "drivers/hal", "drivers/stream",
-        "mid_level/blackboard", "mid_level/geometry", "mid_level/messages"}},
+        "mid_level/blackboard", kTask, "mid_level/geometry", "mid_level/messages"}},
       {"hal_sim/campaign", {}},
       {"deploy/boat",
        {"low_level/tasks", "high_level/tasks", "high_level/mission", "hal_sim", "drivers",

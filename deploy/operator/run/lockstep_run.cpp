@@ -8,7 +8,7 @@
 namespace lodesman::cli {
 namespace {
 
-constexpr Duration kShowPeriod = std::chrono::seconds{1};     // virtual
+constexpr Duration kShowPeriod = std::chrono::seconds{1};      // virtual
 constexpr Duration kStartPatience = std::chrono::seconds{20};  // for the devices to be ready
 
 }  // namespace
