@@ -5,6 +5,7 @@
 #include "deploy/boat/assembled_boat.h"
 #include "deploy/boat/device_watch.h"
 #include "deploy/boat/exit_status.h"
+#include "deploy/boat/failsafes.h"
 #include "deploy/boat/latch_file.h"
 #include "deploy/boat/log.h"
 #include "deploy/boat/process_main.h"
@@ -96,6 +97,15 @@ int main(int argc, char** argv) {
   lodesman::LowOptions options;
   lodesman::add_process_options(app, options);
   lodesman::add_seed_option(app, options.seed);
+  app.add_flag_callback(
+      "--failsafes",
+      [] {
+        for (const std::string& row : lodesman::failsafe_rows()) {
+          std::printf("%s\n", row.c_str());
+        }
+        throw CLI::Success{};
+      },
+      "Print what happens when something falls silent, and end");
   app.footer("Example: lodesman-low --config boat.toml");
   return lodesman::process_main(app, argc, argv, [&] { return lodesman::run(options); });
 }

@@ -120,7 +120,7 @@ const std::vector<Arrow>& arrows() {
         "mid_level/blackboard", kTask, "mid_level/geometry", "mid_level/messages"}},
       {"hal_sim/campaign", {}},
       {"deploy/boat",
-       {"low_level/tasks", "high_level/tasks", "high_level/mission", "hal_sim", "drivers",
+       {"low_level/tasks", "low_level/thrust", "high_level/tasks", "high_level/mission", "hal_sim", "drivers",
         "mid_level"}},
       {"deploy/operator/report", {"mid_level/geometry", "mid_level/messages"}},
       {"deploy/operator/run",

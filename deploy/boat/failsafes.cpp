@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/boat/failsafes.h"
+
+#include <fmt/format.h>
+
+#include "drivers/maestro/maestro.h"
+#include "low_level/thrust/arming.h"
+#include "low_level/thrust/battery.h"
+#include "mid_level/base/short_number.h"
+#include "mid_level/blackboard/blackboard.h"
+
+namespace lodesman {
+
+std::vector<Failsafe> failsafes() {
+  const Duration trial = kArmedMemory + kBoxTrial_max;
+  return {
+      {"heading (`attitude`)", max_age::kAttitude,
+       "the helm is neutral, and no estimate is made; it goes on when the heading is back",
+       "helm `stale_attitude`, `no_way` `no_heading`, device `heading`"},
+      {"estimate (`vehicle_state`)", max_age::kVehicleState,
+       "the helm is neutral, nothing is planned", "helm `stale_state`, `no_way` `no_position`"},
+      {"position fix, where it is the source", max_age::kPositionFix,
+       "no estimate is made, and so the helm is neutral", "device `position`"},
+      {"sonar frame (`sonar_obstacles`, `tracks`)", max_age::kSonarFrame,
+       "nothing new is planned: what was planned is sailed until its own age limit, then held",
+       "plan reason and rung, device `sonar`"},
+      {"mission (`mission_status`)", max_age::kMissionStatus, "the helm is neutral",
+       "helm `stale_mission`"},
+      {"high level (`helm_command`)", max_age::kHelmCommand, "thrust is neutral",
+       "thrust `stale_command`"},
+      {"stick (`manual_input`), while manual", max_age::kManualInput,
+       "thrust is neutral until another word of it, a start or a resume", "thrust `stick_silent`"},
+      {"low level (`thrust_applied`)", max_age::kThrustApplied,
+       "no start is taken; the estimate goes on with no thrust", "`not_ready`, log of lodesman-high"},
+      {"commands, as the thruster box sees it", MaestroOptions{}.time_out,
+       "the box stops both thrusters by itself (its own setting, proved at every start)",
+       "device `thrusters`, once it speaks again"},
+      {"thruster box, gone", kArmedMemory, "the thrusters are disarmed",
+       "thrust `disarmed` by `box_lost`, device `thrusters`"},
+      {"thruster box, there and not ready", trial, "the thrusters are disarmed", "the same"},
+      {"lodesman-low, before it is started again", kArmedMemory,
+       "it comes back disarmed; before that as it was, with neutral first", "log of lodesman-low"},
+      {"battery volts", BatteryMonitor::kSilence_max, "its level is unknown; nothing else",
+       "`battery` in `status`"},
+  };
+}
+
+std::vector<std::string> failsafe_rows() {
+  std::vector<std::string> rows{"| what is missing | for | then | who says so |",
+                                "|---|---|---|---|"};
+  for (const Failsafe& failsafe : failsafes()) {
+    rows.push_back(fmt::format("| {} | {} s | {} | {} |", failsafe.what,
+                               short_number(to_seconds(failsafe.after)), failsafe.happens,
+                               failsafe.told));
+  }
+  return rows;
+}
+
+}  // namespace lodesman
