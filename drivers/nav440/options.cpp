@@ -30,6 +30,7 @@ constexpr std::array<PacketWord, 5> kPacketWords{{{"auto", Nav440Packet::kAuto},
 
 [[nodiscard]] Nav440Packet packet_of(const DeviceAddress& address) {
   std::vector<std::string_view> words;
+  words.reserve(kPacketWords.size());
   for (const PacketWord& word : kPacketWords) {
     words.push_back(word.word);
   }

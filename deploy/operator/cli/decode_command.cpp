@@ -95,6 +95,7 @@ void add_decode_command(CLI::App& root, int& exit_status) {
   const auto options = std::make_shared<DecodeOptions>();
   CLI::App* command = root.add_subcommand("decode", "Say what recorded bytes of a device mean");
   std::vector<std::string> names;
+  names.reserve(kProtocols.size());
   for (const Protocol& protocol : kProtocols) {
     names.emplace_back(protocol.name);
   }

@@ -89,7 +89,7 @@ class DamagedStream {
     counts_.untouched += hits_.hit(frame) ? 0U : 1U;
     ++counts_.frames;
     sent_ += frame.size();
-    REQUIRE(framing_.push(frame) == frame.size());
+    counts_.lost_bytes += frame.size() - framing_.push(frame);
     while (const auto found = framing_.next()) {
       take(*found, frame.size());
     }
@@ -158,6 +158,7 @@ TEST_CASE("nav440: H7: of damaged frames none passes both gates with another hea
   for (const double share : {0.01, 0.1}) {
     const DamageCounts counts = damaged_stream(nav440::kA1, share, kFrames);
     INFO(share << ": CRC wrong " << counts.crc_wrong << ", both wrong " << counts.both_wrong);
+    CHECK(counts.lost_bytes == 0);
     CHECK(counts.used_wrong == 0);
     CHECK(counts.crc_wrong <= 40);  // of 65536 damaged candidates one
     const auto part = [&](std::uint64_t of) {
@@ -179,14 +180,14 @@ TEST_CASE("nav440: H7: what a CRC lets pass is there to be refused", "[nav440]")
   const DamageCounts none = damaged_stream(nav440::kN1, 1e-12, 10'000);
   CHECK(none.recovered == 10'000 - (Plausibility::kConsistent - 1));
   CHECK(none.crc_wrong == 0);
-  const DamageCounts much = damaged_stream(nav440::kA1, 0.1, 3'000'000);
+  const DamageCounts much = damaged_stream(nav440::kA1, 0.1, 1'000'000);
   CHECK(much.crc_wrong > 0);
   CHECK(much.both_wrong < much.crc_wrong);
   CHECK(much.used_wrong == 0);
 }
 
 // A row of a table for each share, of as many frames as LODESMAN_FRAMES says.
-TEST_CASE("nav440: damaged streams, measured", "[.measure]") {
+TEST_CASE("nav440: what damaged streams come to", "[.measure]") {
   const char* told = std::getenv("LODESMAN_FRAMES");
   const std::uint64_t frames = told != nullptr ? std::stoull(told) : 1'000'000;
   for (const nav440::PacketType type : {nav440::kA1, nav440::kN1}) {

@@ -11,14 +11,15 @@ namespace lodesman::testing {
 
 struct DamageCounts {
   std::uint64_t frames = 0;         // sent
-  std::uint64_t untouched = 0;      // of these
-  std::uint64_t crc_right = 0;      // as sent
+  std::uint64_t lost_bytes = 0;     // that the framing did not take
+  std::uint64_t untouched = 0;      // frames no byte of which was changed
+  std::uint64_t crc_right = 0;      // frames that came out as sent
   std::uint64_t recovered = 0;      // of these, those that both gates believe
   std::uint64_t crc_wrong = 0;      // not as sent, though the CRC holds
   std::uint64_t crc_wrong_yaw = 0;  // of these, in the yaw
   std::uint64_t both_wrong = 0;     // believed by both gates, and some bit is not as sent
   double worst_off_deg = 0.0;       // [deg] of a heading that was believed
-  // Of these: heading or rate off by more than plausibility ever allows, or put too early.
+  // Believed: heading or rate off by more than plausibility ever allows, or put too early.
   std::uint64_t used_wrong = 0;
 };
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/unit/nav440/scripted_unit.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "mid_level/base/heading.h"
 #include "tests/support/catch.h"
 
 namespace lodesman::testing {
@@ -226,6 +228,20 @@ void ScriptedUnit::say(ByteList bytes, Time from) {
     static_cast<void>(line_.send(byte, arrives));
   }
   busy_until_ = at;
+}
+
+Motion turning(Time at, double rate_deg_s) {
+  return {std::remainder(rate_deg_s * to_seconds(at - kUnitOn), 360.0), rate_deg_s};
+}
+
+// How far headings are off what the unit did at their stamps.
+double worst_error_deg(const UnitBench& bench, std::size_t from) {
+  double worst = 0.0;
+  for (std::size_t i = from; i < bench.samples.size(); ++i) {
+    const double is_rad = to_rad(bench.unit.motion(bench.samples[i].measured).yaw_deg);
+    worst = std::max(worst, std::abs(to_deg(wrap_to_pi(bench.samples[i].heading_rad - is_rad))));
+  }
+  return worst;
 }
 
 void UnitBench::step() {

@@ -114,4 +114,9 @@ struct UnitBench {
   [[nodiscard]] DeviceFault fault() const { return driver->fault(); }
 };
 
+[[nodiscard]] Motion turning(Time at, double rate_deg_s);
+
+// How far headings are off what the unit did at their stamps.
+[[nodiscard]] double worst_error_deg(const UnitBench& bench, std::size_t from = 0);
+
 }  // namespace lodesman::testing
