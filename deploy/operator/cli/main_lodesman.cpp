@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   int exit_status = 0;
   cli::add_sim_command(app, exit_status);
+  cli::add_hil_command(app, exit_status);
   cli::add_operator_commands(app, exit_status);
   cli::add_thrust_commands(app, exit_status);
   cli::add_segment_command(app, exit_status);

@@ -3,6 +3,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -45,6 +46,16 @@ struct SimOptions {
   bool no_images = false;
   bool wait_start = false;
   std::string console = "off";
+};
+
+// Of `lodesman hil`: the same, with the real drivers on the devices of lodesman-devices.
+struct BenchOptions {
+  std::string ahrs_port;            // a serial port that a cable leads to; empty: a pty
+  std::string thruster_port;        // the same
+  std::string bench_ahrs_port;      // the cable's other end; empty: a pty
+  std::string bench_thruster_port;  // the same
+  std::string box = "maestro";
+  std::string control;  // a named pipe for faults
 };
 
 [[nodiscard]] fs::path run_directory(const SimOptions& options, const Scenario& scenario) {
@@ -176,8 +187,24 @@ class RunOutput {
   bool lost_ = false;
 };
 
+// What lodesman-devices is told.
+[[nodiscard]] std::vector<std::string> arguments_of(const BenchOptions& bench,
+                                                    const fs::path& ports) {
+  std::vector<std::string> arguments{"--ports", ports.string(), "--box", bench.box};
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) {
+      arguments.insert(arguments.end(), {option, value});
+    }
+  };
+  add("--ahrs-port", bench.bench_ahrs_port);
+  add("--thruster-port", bench.bench_thruster_port);
+  add("--control", bench.control);
+  return arguments;
+}
+
 [[nodiscard]] RunRecord run(const SimOptions& options, const BoatConfig& configuration,
-                            const Scenario& scenario, const fs::path& directory,
+                            const Scenario& scenario, const fs::path& ports,
+                            const fs::path& directory, const std::optional<BenchOptions>& bench,
                             RunOutput& output) {
   const auto on_plan = [&](const Blackboard& board, const Plan& plan, const SonarPath* path,
                            const PlanRecord& record) { output.add(board, plan, path, record); };
@@ -189,19 +216,50 @@ class RunOutput {
   if (options.lockstep) {
     return run_lockstep({configuration, scenario, interrupted, show, on_plan, {}, on_row});
   }
+  std::optional<std::vector<std::string>> bench_arguments;
+  if (bench) {
+    bench_arguments = arguments_of(*bench, ports);
+  }
   return run_realtime({directory / "config.toml", directory / "scenario.toml", configuration,
-                       scenario, options.wait_start, interrupted, show, on_plan, on_row});
+                       scenario, bench_arguments, options.wait_start, interrupted, show, on_plan,
+                       on_row});
 }
 
 // What lodesman-low and lodesman-high are told too.
-[[nodiscard]] BoatConfig simulated(const SimOptions& options) {
+[[nodiscard]] BoatConfig simulated(const SimOptions& options,
+                                   const std::optional<BenchOptions>& bench,
+                                   const fs::path& ports) {
   CommonOptions common = options.common;
+  if (bench) {
+    const auto port = [&](const std::string& cable, const char* name) {
+      return cable.empty() ? (ports / name).string() : cable;
+    };
+    // First, so that whoever says otherwise has it otherwise.
+    common.sets.insert(
+        common.sets.begin(),
+        {"devices.heading=" + toml_string("nav440:" + port(bench->ahrs_port, "ahrs")),
+         "devices.thrusters=" +
+             toml_string(bench->box + ":" + port(bench->thruster_port, "thrusters")),
+         "devices.position=none", "estimator.position_source=dead_reckoning",
+         "simulation.vessel=estimate"});
+  }
   common.sets.push_back("simulation.scenario=" + toml_string(options.scenario));
   return load_configuration(options.profile, common);
 }
 
-[[nodiscard]] int simulate(const SimOptions& options) {
-  const BoatConfig configuration = simulated(options);
+// Where the ptys of a bench have their names: short, and gone with the run.
+struct PortsDirectory {
+  fs::path path = fs::temp_directory_path() / fmt::format("lodesman-hil-{}", getpid());
+
+  ~PortsDirectory() {
+    std::error_code error;
+    fs::remove_all(path, error);
+  }
+};
+
+[[nodiscard]] int simulate(const SimOptions& options, const std::optional<BenchOptions>& bench) {
+  const PortsDirectory ports;
+  const BoatConfig configuration = simulated(options, bench, ports.path);
   Scenario scenario = load_named_scenario(options.scenario, configuration.speeds);
   scenario.seed = options.seed.value_or(scenario.seed);
   scenario.time_limit_s = options.time_limit_s.value_or(scenario.time_limit_s);
@@ -218,9 +276,10 @@ class RunOutput {
   remove_dead_runs();
   RunOutput output{options, configuration, scenario, directory};
   if (!options.wait_start) {
-    output.say("the thrusters are simulated: armed by the launcher");
+    output.say(bench ? "the thrusters are emulated: armed by the launcher"
+                     : "the thrusters are simulated: armed by the launcher");
   }
-  RunRecord record = run(options, configuration, scenario, directory, output);
+  RunRecord record = run(options, configuration, scenario, ports.path, directory, bench, output);
   record.result.scenario = scenario.name;
   record.result.profile = options.profile;
   record.result.seed = static_cast<std::int64_t>(scenario.seed);
@@ -241,8 +300,6 @@ void add_options(CLI::App& command, SimOptions& options) {
   command.add_option("scenario", options.scenario, "A scenario file, or the name of a shipped one")
       ->required()
       ->type_name("SCENARIO");
-  command.add_flag("--lockstep", options.lockstep,
-                   "One thread on a virtual clock: deterministic, as fast as the machine allows");
   command.add_option("--profile", options.profile, "default, or paper: as the paper did it")
       ->check(CLI::IsMember({"default", "paper"}));
   command.add_option("--out", options.out, "Run directory [runs/<UTC time>-<scenario>]")
@@ -264,11 +321,46 @@ void add_sim_command(CLI::App& root, int& exit_status) {
   const auto options = std::make_shared<SimOptions>();
   CLI::App* command = root.add_subcommand("sim", "Sail a scenario on simulated devices");
   add_options(*command, *options);
+  command->add_flag("--lockstep", options->lockstep,
+                    "One thread on a virtual clock: deterministic, as fast as the machine allows");
   command->footer(
       "Example: lodesman sim paper-static --profile paper --lockstep\n\nFaults that a "
       "scenario may name:\n" +
       fault_kinds_help());
-  command->callback([options, &exit_status] { exit_status = simulate(*options); });
+  command->callback([options, &exit_status] { exit_status = simulate(*options, {}); });
+}
+
+void add_hil_command(CLI::App& root, int& exit_status) {
+  const auto options = std::make_shared<SimOptions>();
+  const auto bench = std::make_shared<BenchOptions>();
+  CLI::App* command = root.add_subcommand(
+      "hil", "Sail a scenario with the real drivers, on devices that are emulated to the byte");
+  add_options(*command, *options);
+  command->add_option("--ahrs-port", bench->ahrs_port, "A port instead of a pty: the boat's end")
+      ->type_name("PORT");
+  command->add_option("--thruster-port", bench->thruster_port, "The same")->type_name("PORT");
+  command->add_option("--bench-ahrs-port", bench->bench_ahrs_port, "The other end of that cable")
+      ->type_name("PORT");
+  command->add_option("--bench-thruster-port", bench->bench_thruster_port, "The same")
+      ->type_name("PORT");
+  command->add_option("--box", bench->box, "maestro or roboclaw")
+      ->check(CLI::IsMember({"maestro", "roboclaw"}));
+  command->add_option("--control", bench->control, "A named pipe to make: a line a fault, or clear")
+      ->type_name("FILE");
+  command->footer(
+      "Examples: lodesman hil paper-static --profile paper\n"
+      "          lodesman hil paper-static --ahrs-port /dev/ttyUSB0 --bench-ahrs-port "
+      "/dev/ttyUSB1");
+  command->callback([options, bench, &exit_status] {
+    if (bench->ahrs_port.empty() != bench->bench_ahrs_port.empty() ||
+        bench->thruster_port.empty() != bench->bench_thruster_port.empty()) {
+      throw CLI::ValidationError("hil",
+                                 "a cable has two ends: give --ahrs-port with "
+                                 "--bench-ahrs-port, --thruster-port with "
+                                 "--bench-thruster-port");
+    }
+    exit_status = simulate(*options, *bench);
+  });
 }
 
 }  // namespace lodesman::cli

@@ -7,6 +7,7 @@
 #include <optional>
 #include <thread>
 
+#include "deploy/boat/device_bench.h"
 #include "deploy/boat/exit_status.h"
 #include "deploy/boat/stop_signals.h"
 #include "deploy/operator/run/child_process.h"
@@ -23,7 +24,8 @@ constexpr Duration kSegmentPatience = std::chrono::seconds{5};
 constexpr Duration kStopPatience = std::chrono::seconds{2};
 constexpr double kSilence_s = 1.0;  // so far scenario time may lag behind this program's own
 
-// Both processes and the name they share. High is stopped first, so that its last word is heard.
+// Both processes, the bench where there is one, and the name they share. High is stopped first, so
+// that its last word is heard.
 class TwoProcesses {
  public:
   explicit TwoProcesses(const RealtimeRun& run)
@@ -32,6 +34,12 @@ class TwoProcesses {
                                           "--config",         run.configuration_file.string(),
                                           "--scenario",       run.scenario_file.string(),
                                           "--stop-with-input"};
+    if (run.bench) {
+      std::vector<std::string> bench = common;
+      bench.insert(bench.end(), {"--seed", std::to_string(run.scenario.seed)});
+      bench.insert(bench.end(), run.bench->begin(), run.bench->end());
+      bench_ = std::make_unique<ChildProcess>("lodesman-devices", bench);
+    }
     std::vector<std::string> low = common;
     low.insert(low.end(), {"--seed", std::to_string(run.scenario.seed)});
     low_ = std::make_unique<ChildProcess>("lodesman-low", low);
@@ -53,8 +61,8 @@ class TwoProcesses {
 
   // Which one died, and how; empty while both run. Throws StartupError where it is a refusal.
   [[nodiscard]] std::string fault(bool starting) {
-    for (auto* child : {low_.get(), high_.get()}) {
-      if (!child->ended()) {
+    for (auto* child : {bench_.get(), low_.get(), high_.get()}) {
+      if (child == nullptr || !child->ended()) {
         continue;
       }
       if (starting && child->exit_status() == kExitRefused) {
@@ -69,6 +77,10 @@ class TwoProcesses {
     high_->stop(kStopPatience);
     low_->stop(kStopPatience);
     remove_dead_segment(segment_);
+    if (bench_) {
+      bench_->stop(kStopPatience);
+      remove_dead_segment(world_segment_of(segment_));
+    }
   }
 
  private:
@@ -77,11 +89,15 @@ class TwoProcesses {
     while (!stop.stop_requested()) {
       low_->beat();
       high_->beat();
+      if (bench_) {
+        bench_->beat();
+      }
       std::this_thread::sleep_for(kPulsePeriod);
     }
   }
 
   std::string segment_;
+  std::unique_ptr<ChildProcess> bench_;  // where there is one
   std::unique_ptr<ChildProcess> low_;
   std::unique_ptr<ChildProcess> high_;
   std::jthread pulse_;
@@ -89,14 +105,15 @@ class TwoProcesses {
 
 // Waits for the segment as long as both processes live; without one `fault` says why, unless it
 // was an interrupt.
-[[nodiscard]] std::optional<SharedBlackboard> observe(TwoProcesses& processes,
+[[nodiscard]] std::optional<SharedBlackboard> observe(const std::string& segment,
+                                                      TwoProcesses& processes,
                                                       const std::function<bool()>& interrupted,
                                                       std::string& fault) {
   const SteadyClock clock;
   const Time deadline = clock.now() + kSegmentPatience;
   while (!interrupted()) {
     try {
-      return SharedBlackboard::observe(processes.segment(), Duration::zero());
+      return SharedBlackboard::observe(segment, Duration::zero());
     } catch (const StartupError& error) {
       fault = processes.fault(true);
       if (fault.empty() && clock.now() >= deadline) {
@@ -143,8 +160,9 @@ class TwoProcesses {
   return {};
 }
 
-[[nodiscard]] RunRecord finished(RunRecord record, double took_s, const std::string& fault) {
-  record.result.mode = "realtime";
+[[nodiscard]] RunRecord finished(const RealtimeRun& run, RunRecord record, double took_s,
+                                 const std::string& fault) {
+  record.result.mode = run.bench ? "hil" : "realtime";
   record.result.real_time_factor = took_s > 0.0 ? record.result.time_s / took_s : 0.0;
   if (!fault.empty()) {
     record.result.fault = fault;
@@ -160,11 +178,15 @@ RunRecord run_realtime(const RealtimeRun& run) {
   const HighLevelOptions& options = run.configuration.high;
   const Scenario planned = with_planned_zones(run.scenario, options);
   std::string fault;
-  const auto board = observe(processes, run.interrupted, fault);
-  if (!board) {
-    return finished(blank_record(planned, options.controller.waypoint_radius_m), 0.0, fault);
+  const auto board = observe(processes.segment(), processes, run.interrupted, fault);
+  const auto truth = board && run.bench ? observe(world_segment_of(processes.segment()), processes,
+                                                  run.interrupted, fault)
+                                        : std::nullopt;
+  if (!board || (run.bench && !truth)) {
+    return finished(run, blank_record(planned, options.controller.waypoint_radius_m), 0.0, fault);
   }
-  RunWatcher watcher{**board, planned, options.controller.waypoint_radius_m};
+  RunWatcher watcher{**board, truth ? **truth : **board, planned,
+                     options.controller.waypoint_radius_m};
   watcher.on_row = run.on_row;
   if (run.on_plan) {
     watcher.on_plan = [&](const Plan& plan, const SonarPath* path, const PlanRecord& record) {
@@ -176,7 +198,7 @@ RunRecord run_realtime(const RealtimeRun& run) {
   const double took_s = to_seconds(stopwatch.elapsed());
   processes.stop();
   watcher.poll();
-  return finished(watcher.finish(), took_s, fault);
+  return finished(run, watcher.finish(), took_s, fault);
 }
 
 }  // namespace lodesman::cli

@@ -5,6 +5,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "deploy/boat/assembled_boat.h"
 #include "deploy/operator/run/watcher.h"
@@ -16,6 +19,8 @@ struct RealtimeRun {
   std::filesystem::path scenario_file;
   const BoatConfig& configuration;
   const Scenario& scenario;
+  // Arguments of lodesman-devices, where it runs beside them: then the truth is in its segment.
+  std::optional<std::vector<std::string>> bench;
   bool wait_start = false;  // for an operator's start, instead of starting by itself
   const std::function<bool()>& interrupted;
   const std::function<void(const RunProgress&)>& show;

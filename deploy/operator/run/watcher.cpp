@@ -55,11 +55,12 @@ double way_left_m(const ScenarioMission& mission, std::size_t goal_index, const 
   return left_m + (mission.goal().xy_m - at.xy_m).norm();
 }
 
-RunWatcher::RunWatcher(const Blackboard& board, const Scenario& scenario, double waypoint_radius_m)
+RunWatcher::RunWatcher(const Blackboard& board, const Blackboard& truth, const Scenario& scenario,
+                       double waypoint_radius_m)
     : scenario_{scenario},
       record_{blank_record(scenario, waypoint_radius_m)},
       mission_{board.mission_status},
-      truth_{board.world_truth},
+      truth_{truth.world_truth},
       state_{board.vehicle_state},
       helm_{board.helm_command},
       thrust_{board.thrust_applied},

@@ -37,7 +37,11 @@ struct RunProgress {
 
 class RunWatcher {
  public:
-  RunWatcher(const Blackboard& board, const Scenario& scenario, double waypoint_radius_m);
+  RunWatcher(const Blackboard& board, const Scenario& scenario, double waypoint_radius_m)
+      : RunWatcher{board, board, scenario, waypoint_radius_m} {}
+  // `truth`: the blackboard on which the world tells it, where that is not the boat's.
+  RunWatcher(const Blackboard& board, const Blackboard& truth, const Scenario& scenario,
+             double waypoint_radius_m);
 
   // Takes in everything published since the last call; to be called at least once a second. A call
   // that comes later costs samples, which are counted, but never the nearest distance.

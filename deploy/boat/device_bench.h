@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bench without a boat: a simulated vessel with an AHRS and a thruster box that are emulated to
+// the byte, behind ptys or cables, and its truth in a segment of its own, never in the boat's. One
+// thread, which steps it every millisecond.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "deploy/boat/named_scenario.h"
+#include "hal_sim/emulators/emulated_thrusters.h"
+
+namespace lodesman {
+
+struct DeviceBenchOptions {
+  std::string boat_segment;
+  std::filesystem::path directory;  // of the ptys' names: ahrs, thrusters
+  std::string ahrs_port;            // a serial port instead of a pty; empty: a pty
+  std::string thruster_port;
+  ThrusterBoxKind box = ThrusterBoxKind::kMaestro;
+  bool has_escs = false;
+};
+
+// The segment in which the world of a bench for that boat tells the truth.
+[[nodiscard]] std::string world_segment_of(const std::string& boat_segment);
+
+class DeviceBench {
+ public:
+  // Throws StartupError.
+  DeviceBench(const DeviceBenchOptions& options, const Scenario& scenario, Time now);
+  ~DeviceBench();
+
+  void step(Time now);
+  // One fault more, as fault.h has it ("ahrs flip rate=0.01 for=5"), from now on; or "clear". What
+  // is wrong with it, or nothing.
+  [[nodiscard]] std::string order(const std::string& text);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lodesman
