@@ -30,6 +30,8 @@ class DeviceBench {
  public:
   // Throws StartupError.
   DeviceBench(const DeviceBenchOptions& options, const Scenario& scenario, Time now);
+  DeviceBench(const DeviceBench&) = delete;
+  DeviceBench& operator=(const DeviceBench&) = delete;
   ~DeviceBench();
 
   void step(Time now);

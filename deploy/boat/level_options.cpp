@@ -56,6 +56,10 @@ LowLevelOptions read_low_level_options(const TomlTable& configuration) {
                               battery.number("critical_V", Range::between(0.0, 1000.0)),
                               battery.number("hysteresis_V", Range::between(0.0, 10.0)),
                               battery.number("sag_V", Range::between(0.0, 100.0))};
+  if (options.thruster.battery.low_V > 0.0 &&
+      options.thruster.battery.critical_V >= options.thruster.battery.low_V) {
+    battery.refuse("critical_V", "must be below low_V");
+  }
   const TomlTable tracks = configuration.table("tracks");
   auto& oracle = options.delta_t.track_oracle;
   oracle.delay = tracks.duration("delay_s", Range::between(0.0, 2.0));

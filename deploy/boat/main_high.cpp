@@ -145,13 +145,18 @@ struct RunningTasks {
   RealtimeRunner runner;
 };
 
+struct HighOptions : ProcessOptions {
+  bool start = false;
+  bool arm = false;
+};
+
 // Runs the high level on one segment until a stop is asked for or a new low level has made another.
 void sail(SharedBlackboard& board, const BoatConfig& config, const Voyage& voyage,
-          bool start_by_itself) {
+          bool start_by_itself, bool arms) {
   HighLevel high{board.writable(), Role::kHigh, high_level_options(config, voyage)};
   DeskOptions at_the_desk = desk_options(config, voyage);
   at_the_desk.starts_by_itself = start_by_itself;
-  at_the_desk.arms_by_itself |= start_by_itself;
+  at_the_desk.arms_by_itself |= start_by_itself && arms;
   const WayIn way_in{board.writable(), config.command_socket, at_the_desk};
   const auto tasks = high.tasks();
   // Stopped, its tasks leave all safe; they go on where they stood.
@@ -182,7 +187,8 @@ void hand_on(const std::optional<Stamped<MissionStatus>>& mission, SharedBlackbo
   }
 }
 
-int run(const ProcessOptions& options, bool start_by_itself) {
+int run(const HighOptions& options) {
+  bool start_by_itself = options.start;
   const BoatConfig config = load_configuration(options.profile, options.common);
   const std::optional<Scenario> simulated = simulated_scenario(config);
   const Scenario* scenario = simulated ? &*simulated : nullptr;
@@ -195,7 +201,7 @@ int run(const ProcessOptions& options, bool start_by_itself) {
     report_what_was_found(*board);
   }
   while (board) {
-    sail(*board, config, voyage, start_by_itself);
+    sail(*board, config, voyage, start_by_itself, options.arm);
     if (stop_asked()) {
       break;
     }
@@ -220,13 +226,13 @@ int main(int argc, char** argv) {
   lodesman::log_without_blocking();
   CLI::App app{"The high level: estimator, re-planner, guidance, control and mission",
                "lodesman-high"};
-  lodesman::ProcessOptions options;
+  lodesman::HighOptions options;
   lodesman::add_process_options(app, options);
-  bool start_by_itself = false;
-  app.add_flag("--start", start_by_itself,
+  app.add_flag("--start", options.start,
                "Start the scenario's mission without an operator's word, once the boat is ready");
+  app.add_flag("--arm", options.arm,
+               "With --start: arm the thrusters too, where they are not simulated (for a bench)");
   app.footer("Example: lodesman-high --config boat.toml");
   spdlog::set_level(spdlog::level::warn);
-  return lodesman::process_main(app, argc, argv,
-                                [&] { return lodesman::run(options, start_by_itself); });
+  return lodesman::process_main(app, argc, argv, [&] { return lodesman::run(options); });
 }

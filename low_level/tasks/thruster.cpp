@@ -25,9 +25,13 @@ void ThrusterTask::step(Time now) noexcept {
   }
   look(now);
   obey_orders(now);
-  // A box that was not ready, or gone, gets neutral first.
-  const bool is_ready = thrusters_ == nullptr || box_ == CommandStatus::kTaken;
-  ThrustApplied applied = is_ready ? wanted(now) : ThrustApplied{ThrustReason::kDeviceFailed};
+  ThrustApplied applied = wanted(now);
+  const bool turns = applied.surge_ref != 0 || applied.head_ref != 0;
+  if (turns && thrusters_ != nullptr && box_ != CommandStatus::kTaken) {
+    // A box that was not ready, or gone, gets neutral first.
+    applied = ThrustApplied{};
+    applied.reason = ThrustReason::kDeviceFailed;
+  }
   const ThrustCommand thrust = map_thrust(applied.surge_ref, applied.head_ref);
   applied.left = thrust.left;
   applied.right = thrust.right;

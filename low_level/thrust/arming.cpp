@@ -70,6 +70,9 @@ void Arming::latch(Time now) noexcept {
 
 void Arming::look(const ArmingView& view, Time now) noexcept {
   view_ = view;
+  if (status_.since == Time{}) {
+    status_.since = now;  // it has been so since it was first asked
+  }
   const bool is_tried = view.box == ArmingView::Box::kNotReady;
   if (view.box == ArmingView::Box::kReady) {
     box_was_ready_ = now;

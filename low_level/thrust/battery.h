@@ -11,7 +11,7 @@ namespace lodesman {
 
 struct BatteryOptions {
   double low_V = 0.0;         // [V] at rest; 0: no limit, its level is then never told
-  double critical_V = 0.0;    // [V] < low_V; 0: no limit
+  double critical_V = 0.0;    // [V] below low_V; 0: no limit
   double hysteresis_V = 0.5;  // [V] above a limit before the level is better again
   double sag_V = 1.5;         // [V] that full thrust of both sides takes away
 };

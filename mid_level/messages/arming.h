@@ -135,7 +135,7 @@ enum class BatteryLevel : std::uint8_t {
   kUnknown,  // nothing tells, or nothing has told for too long
   kGood,
   kLow,
-  kCritical,  // latched until the power is off
+  kCritical,  // stands until the program ends
 };
 [[nodiscard]] constexpr auto enumerators(BatteryLevel) noexcept {
   return enumerators_to<BatteryLevel::kCritical>("unknown", "good", "low", "critical");

@@ -64,7 +64,7 @@ class BenchedBoat {
     remove_dead_segment(world_segment_of(segment_));
   }
   void start_low() { start("lodesman-low", {}, low); }
-  void start_high() { start("lodesman-high", {"--start"}, high); }
+  void start_high() { start("lodesman-high", {"--start", "--arm"}, high); }
 
   void order(const std::string& fault) const {
     const int pipe = open(control_.c_str(), O_WRONLY | O_CLOEXEC);

@@ -263,6 +263,11 @@ struct PortsDirectory {
   Scenario scenario = load_named_scenario(options.scenario, configuration.speeds);
   scenario.seed = options.seed.value_or(scenario.seed);
   scenario.time_limit_s = options.time_limit_s.value_or(scenario.time_limit_s);
+  if (!bench && has_real_devices(configuration)) {
+    throw StartupError(
+        "sim: the configuration has real devices, and this sails by itself: start lodesman-low and "
+        "lodesman-high by hand, or use lodesman hil");
+  }
   require_sound(configuration, &scenario);
   const auto number = encounter_number(options.scenario);
   const std::string scenario_text =  // before it may be overwritten

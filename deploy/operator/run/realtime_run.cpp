@@ -47,6 +47,9 @@ class TwoProcesses {
     if (!run.wait_start) {
       high.push_back("--start");
     }
+    if (run.bench) {
+      high.push_back("--arm");
+    }
     high_ = std::make_unique<ChildProcess>("lodesman-high", high);
     pulse_ = std::jthread{[this](const std::stop_token& stop) { beat(stop); }};
   }

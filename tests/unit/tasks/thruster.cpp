@@ -115,7 +115,10 @@ TEST_CASE("thruster task: a box that takes no command is said to have failed",
   CHECK(failed.surge_ref == 0);  // nobody may reckon with what was not done
   CHECK(int{failed.left} == 128);
   thrusters.box.status = CommandStatus::kTaken;
-  CHECK(thrusters.after_step(kStart + milliseconds{50}).reason == ThrustReason::kCommanded);
+  // Whoever puts a box back does not find it at full thrust.
+  CHECK(thrusters.after_step(kStart + milliseconds{50}).reason == ThrustReason::kDeviceFailed);
+  CHECK(thrusters.box.last == kNeutralThrust);
+  CHECK(thrusters.after_step(kStart + milliseconds{100}).reason == ThrustReason::kCommanded);
 }
 
 TEST_CASE("thruster task: disarmed it is neutral whatever the helm says", "[low_level][tasks]") {
