@@ -45,8 +45,8 @@ struct Sailed {
   sailed.record = boat.sail(kStart, [&] {
     plans.update();
     helm.update();
-    if (sailed.first_attitude == Time{} && attitude.latest() != nullptr) {
-      sailed.first_attitude = attitude.latest()->stamp;
+    if (const auto* first = attitude.next(); first != nullptr && sailed.first_attitude == Time{}) {
+      sailed.first_attitude = first->stamp;
     }
   });
   sailed.plans = plans.publications();
