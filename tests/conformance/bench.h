@@ -9,9 +9,14 @@
 //   static Duration period();       between two samples of a sensor
 //   void fail(BenchFault);          from now on, until mend()
 //   void mend();
+//   void come_up();                 uses it as its task does until it serves: a sensor brings its
+//                                   first sample, a box has taken neutral. What is real is found,
+//                                   asked and tried first; what is simulated serves at once.
+//   static Duration recovery();     from mend() to a sensor's first sample, at the longest
 // and for thrusters
 //   ThrustCommand applied();        what the propellers are told now
 //   static Duration time_out();     after which the box stops them by itself
+//   static int steps_to_apply();    a command given in so many steps in a row is applied
 #pragma once
 
 #include <algorithm>
@@ -27,6 +32,31 @@
 namespace lodesman::conformance {
 
 enum class BenchFault { kStall, kCorrupt, kDisconnect };
+
+// How often its task uses a device. Far more steps than any needs to come up: a bench whose device
+// does not fails in the suite.
+inline constexpr Duration kTaskPeriod = std::chrono::milliseconds{50};
+inline constexpr int kStepsToComeUp = 1000;
+
+template <class Bench>
+void poll_until_fresh(Bench& bench) {
+  for (int i = 0; i < kStepsToComeUp; ++i) {
+    bench.pass(Bench::period() / 4);
+    if (bench.device().poll(bench.now()).status == ReadStatus::kFresh) {
+      return;
+    }
+  }
+}
+
+template <class Bench>
+void command_until_taken(Bench& bench) {
+  for (int i = 0; i < kStepsToComeUp; ++i) {
+    if (bench.device().command(kNeutralThrust, bench.now()) == CommandStatus::kTaken) {
+      return;
+    }
+    bench.pass(kTaskPeriod);
+  }
+}
 
 // A world that moves on by hand, and the simulated device D of contract C in it. The faults are
 // those of a scenario: pulling the plug jumps to the scenario time at which it is pulled.
@@ -54,8 +84,11 @@ class SimBench {
     publish_next();
   }
 
+  void come_up() noexcept {}
+
   [[nodiscard]] ThrustCommand applied() noexcept { return thrust_at(box_, now_); }
   [[nodiscard]] static Duration time_out() noexcept { return kBoxTimeOut; }
+  [[nodiscard]] static int steps_to_apply() noexcept { return 1; }
 
  private:
   static constexpr Duration kWorldPeriod = std::chrono::milliseconds{20};
@@ -100,12 +133,15 @@ class SimBench {
 
 struct SimHeadingBench : SimBench<HeadingSensor, SimHeadingSensor, FaultDevice::kAhrs> {
   [[nodiscard]] static Duration period() noexcept { return std::chrono::milliseconds{20}; }
+  [[nodiscard]] static Duration recovery() noexcept { return 2 * period(); }
 };
 struct SimPositionBench : SimBench<PositionSensor, SimPositionSensor, FaultDevice::kPosition> {
   [[nodiscard]] static Duration period() noexcept { return std::chrono::milliseconds{200}; }
+  [[nodiscard]] static Duration recovery() noexcept { return 2 * period(); }
 };
 struct SimSonarBench : SimBench<ImagingSonar, SimSonar, FaultDevice::kSonar> {
   [[nodiscard]] static Duration period() noexcept { return std::chrono::milliseconds{100}; }
+  [[nodiscard]] static Duration recovery() noexcept { return 2 * period(); }
 };
 struct SimThrusterBench : SimBench<ThrusterPair, SimThrusterPair, FaultDevice::kThruster> {};
 

@@ -30,9 +30,15 @@ TEMPLATE_LIST_TEST_CASE("imaging sonar: faults show as they must, and it recover
   fails_as_it_must_and_recovers<TestType>(kPoll);
 }
 
+TEMPLATE_LIST_TEST_CASE("imaging sonar: nothing is taken from the heap, whatever happens",
+                        "[conformance]", ImagingSonars) {
+  polls_without_the_heap<TestType>(kPoll);
+}
+
 TEMPLATE_LIST_TEST_CASE("imaging sonar: the buffer is touched by a fresh ping alone",
                         "[conformance]", ImagingSonars) {
   TestType bench;
+  bench.come_up();
   bench.pass(2 * TestType::period());
   const auto ping = std::make_unique<SonarPing>();
   for (const bool broken : {false, true}) {
@@ -63,6 +69,7 @@ TEMPLATE_LIST_TEST_CASE("imaging sonar: the buffer is touched by a fresh ping al
 TEMPLATE_LIST_TEST_CASE("imaging sonar: numbers rise, sizes agree, values are in range",
                         "[conformance]", ImagingSonars) {
   TestType bench;
+  bench.come_up();
   const auto ping = std::make_unique<SonarPing>();
   std::uint64_t last = 0;
   int fresh = 0;
