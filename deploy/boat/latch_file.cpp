@@ -20,7 +20,7 @@ constexpr std::string_view kStopped = "stopped\n";
 constexpr std::string_view kClear = "clear\n";
 
 [[nodiscard]] fs::path from_environment(const char* name) {
-  const char* value = std::getenv(name);
+  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody writes it
   return value != nullptr && value[0] == '/' ? fs::path{value} : fs::path{};
 }
 

@@ -5,15 +5,13 @@
 // broken.
 //   measure_failsafes [TIMES [maestro|roboclaw]]
 // TIMES: of each kill and each pulled cable; of each freezing half as often.
-#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <cstdlib>
 #include <random>
 
-#include "deploy/boat/device_bench.h"
 #include "tests/measure/kill_table.h"
-#include "tests/system/boat.h"
+#include "tests/system/benched_boat.h"
 
 namespace lodesman::measure {
 namespace {
@@ -24,111 +22,9 @@ constexpr double kSilentHigh_s = 0.5;
 constexpr double kBox_s = 0.9;
 constexpr double kLostHeading_s = 1.0;
 
-void require(bool holds, const std::string& what) {
-  if (!holds) {
-    throw std::runtime_error(what);
-  }
-}
-
-// Three programs: the bench, and the boat's two.
-class BenchedBoat {
- public:
-  explicit BenchedBoat(const std::string& box)
-      : ports_{scratch_.file("ports")},
-        control_{scratch_.file("control")},
-        segment_{"lodesman-test-hil-" + std::to_string(getpid())} {
-    CommonOptions options;
-    options.sets = {"command_socket.port = 0",
-                    "devices.heading=" + toml_string("nav440:" + (ports_ / "ahrs").string()),
-                    "devices.thrusters=" + toml_string(box + ":" + (ports_ / "thrusters").string()),
-                    "devices.position=none",
-                    "estimator.position_source=dead_reckoning",
-                    "simulation.vessel=estimate"};
-    const auto config =
-        scratch_.file("config.toml", load_configuration("default", options).to_text());
-    const auto scenario = scratch_.file("scenario.toml", scenario_text(1900.0, 10'000.0));
-    arguments_ = {"--segment",     segment_,     "--config",
-                  config.string(), "--scenario", scenario.string()};
-    start("lodesman-devices",
-          {"--ports", ports_.string(), "--box", box, "--control", control_.string()}, bench);
-    world_.emplace(SharedBlackboard::observe(world_segment_of(segment_), kPatience));
-    truth_.emplace((*world_)->world_truth);
-    start_low();
-    start_high();
-  }
-  ~BenchedBoat() {
-    high.reset();
-    low.reset();
-    bench.reset();
-    remove_dead_segment(segment_);
-    remove_dead_segment(world_segment_of(segment_));
-  }
-  void start_low() { start("lodesman-low", {}, low); }
-  void start_high() { start("lodesman-high", {"--start", "--arm"}, high); }
-
-  void order(const std::string& fault) const {
-    const int pipe = open(control_.c_str(), O_WRONLY | O_CLOEXEC);
-    require(pipe >= 0, "the bench has no control");
-    const std::string line = fault + "\n";
-    require(write(pipe, line.data(), line.size()) == static_cast<ssize_t>(line.size()),
-            "the bench does not listen");
-    close(pipe);
-  }
-
-  void await_drive() {
-    require(eventually([&] {
-              const auto* now = truth_->latest();
-              return now != nullptr && now->value.thrust_left > 140 &&
-                     now->value.thrust_right > 140;
-            }),
-            "the boat does not sail");
-  }
-  // How long after `event` the propellers stand still, and stay so for a while.
-  [[nodiscard]] double still_after_s(Time event) {
-    Time since{};
-    require(eventually([&] {
-              while (const auto* now = truth_->next()) {
-                const bool still =
-                    is_neutral(now->value.thrust_left) && is_neutral(now->value.thrust_right);
-                if (now->stamp < event || !still) {
-                  since = Time{};
-                } else if (since == Time{}) {
-                  since = now->stamp;
-                }
-              }
-              return since != Time{} && SteadyClock{}.now() - since > milliseconds{150};
-            }),
-            "the propellers go on");
-    return to_seconds(since - event);
-  }
-
-  std::unique_ptr<ChildProcess> bench;
-  std::unique_ptr<ChildProcess> low;
-  std::unique_ptr<ChildProcess> high;
-
- private:
-  [[nodiscard]] static bool is_neutral(std::uint8_t thrust) {
-    return thrust == 127 || thrust == 128;
-  }
-  void start(const char* program, const std::vector<std::string>& more,
-             std::unique_ptr<ChildProcess>& process) {
-    auto all = arguments_;
-    all.insert(all.end(), more.begin(), more.end());
-    process = std::make_unique<ChildProcess>(program, all);
-  }
-
-  Scratch scratch_{"failsafes"};
-  fs::path ports_;
-  fs::path control_;
-  std::string segment_;
-  std::vector<std::string> arguments_;
-  std::optional<SharedBlackboard> world_;
-  std::optional<Reader<WorldTruth>> truth_;
-};
-
 class Campaign {
  public:
-  Campaign(int times, const std::string& box) : times_{times}, boat_{box} {
+  Campaign(int times, const std::string& box) : times_{times}, boat_{box, {"--start", "--arm"}} {
     fmt::print("seed {}, {}\n", seed_, box);
   }
 
