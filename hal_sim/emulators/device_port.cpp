@@ -33,6 +33,8 @@ class PtyLine final : public HostLine {
       throw StartupError(name_.string() + ": no pty can be made there");
     }
   }
+  PtyLine(const PtyLine&) = delete;
+  PtyLine& operator=(const PtyLine&) = delete;
   ~PtyLine() override { unplug(); }
 
   [[nodiscard]] std::size_t read(std::span<std::uint8_t> into) override {
