@@ -82,7 +82,7 @@ lines=$(wc -l <"$place/list")
 count=${1:-$lines}
 [ "$count" -le "$lines" ] || count=$lines
 heading
-printf '%-34s %-58s %s\n' file change 'the first test to fail'
+printf '%-36s %-68s %s\n' file change 'the first test to fail'
 survived=0
 for ((i = 0; i < count; ++i)); do
   IFS='|' read -r file old new why < <(sed -n "$((i * lines / count + 1))p" "$place/list")
@@ -93,7 +93,7 @@ for ((i = 0; i < count; ++i)); do
     survived=$((survived + 1))
     if [ -n "$why" ]; then outcome="survived: $why"; else broken "$file: $old -> $new survived"; fi
   fi
-  printf '%-34s %-58s %s\n' "$file" "${old##*std::chrono::} -> ${new##*std::chrono::}" "$outcome"
+  printf '%-36s %-68s %s\n' "$file" "${old//std::chrono::/} -> ${new//std::chrono::/}" "$outcome"
 done
 echo "$count changes, $survived survived"
 exit $failed
