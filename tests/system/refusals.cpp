@@ -165,6 +165,12 @@ struct OptionRow {
 TEST_CASE("refusals: sim refuses bad options and configurations", "[system][refusals]") {
   const std::vector<std::string> over{"--config", "c.toml"};
   const std::vector<OptionRow> rows{
+      {over, "^c.toml:2: devices.heading: is real, and sim sails by itself",
+       "[devices]\nheading = \"nav440:/dev/none\"\nposition = \"none\"\n"
+       "thrusters = \"none\"\n[estimator]\nposition_source = \"dead_reckoning\"\n"
+       "[simulation]\nvessel = \"estimate\"\n"},
+      {over, "^c.toml:3: battery.critical_V: must be below low_V",
+       "[battery]\nlow_V = 22.0\ncritical_V = 23.0\n"},
       {{"--set", ""}, "^--set:1: : must be SECTION.KEY=VALUE", ""},
       {{"--set", "garbage"}, "^--set:1: garbage: must be", ""},
       {{"--set", "=1"}, "^--set:1: =1: must be", ""},
@@ -312,7 +318,7 @@ TEST_CASE("refusals: devices that do not go together are refused by both program
        "^c.toml:2: devices.position: is none: the position's source must be dead_reckoning"},
       {"[devices]\nposition = \"none\"\n",
        "^c.toml:2: devices.position: is none: the position's source must be dead_reckoning"},
-      {real + estimate, "^c.toml:2: devices.heading: there is no driver"},
+      {real + estimate, "^c.toml:3: devices.position: there is no driver"},
   };
   for (const Row& row : rows) {
     for (const char* program : {LODESMAN_LOW_PROGRAM, LODESMAN_HIGH_PROGRAM}) {

@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "deploy/boat/assembled_boat.h"
+#include "deploy/boat/device_catalogue.h"
 #include "deploy/boat/stop_signals.h"
 #include "deploy/boat/version.h"
 #include "deploy/operator/cli/common_options.h"
@@ -263,12 +264,13 @@ struct PortsDirectory {
   Scenario scenario = load_named_scenario(options.scenario, configuration.speeds);
   scenario.seed = options.seed.value_or(scenario.seed);
   scenario.time_limit_s = options.time_limit_s.value_or(scenario.time_limit_s);
-  if (!bench && has_real_devices(configuration)) {
-    throw StartupError(
-        "sim: the configuration has real devices, and this sails by itself: start lodesman-low and "
-        "lodesman-high by hand, or use lodesman hil");
-  }
   require_sound(configuration, &scenario);
+  if (const char* real = real_device(configuration.devices); real != nullptr && !bench) {
+    configuration.document.root().table("devices").refuse(
+        real,
+        "is real, and sim sails by itself: start lodesman-low and lodesman-high by hand, or use "
+        "lodesman hil");
+  }
   const auto number = encounter_number(options.scenario);
   const std::string scenario_text =  // before it may be overwritten
       number ? encounter_scenario(*number) : read_text(scenario_file(options.scenario));
