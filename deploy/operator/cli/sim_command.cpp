@@ -250,12 +250,16 @@ class RunOutput {
 
 // Where the ptys of a bench have their names: short, and gone with the run.
 struct PortsDirectory {
-  fs::path path = fs::temp_directory_path() / fmt::format("lodesman-hil-{}", getpid());
+  PortsDirectory() = default;
+  PortsDirectory(const PortsDirectory&) = delete;
+  PortsDirectory& operator=(const PortsDirectory&) = delete;
 
   ~PortsDirectory() {
     std::error_code error;
     fs::remove_all(path, error);
   }
+
+  fs::path path = fs::temp_directory_path() / fmt::format("lodesman-hil-{}", getpid());
 };
 
 [[nodiscard]] int simulate(const SimOptions& options, const std::optional<BenchOptions>& bench) {
