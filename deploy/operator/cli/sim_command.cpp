@@ -249,22 +249,32 @@ class RunOutput {
 }
 
 // Where the ptys of a bench have their names: short, and gone with the run.
-struct PortsDirectory {
-  PortsDirectory() = default;
+class PortsDirectory {
+ public:
+  explicit PortsDirectory(bool needed) {
+    std::string pattern = (fs::temp_directory_path() / "lodesman-hil-XXXXXX").string();
+    if (needed) {
+      if (mkdtemp(pattern.data()) == nullptr) {
+        throw StartupError("hil: " + pattern + ": cannot be made");
+      }
+      path_ = pattern;
+    }
+  }
   PortsDirectory(const PortsDirectory&) = delete;
   PortsDirectory& operator=(const PortsDirectory&) = delete;
-
   ~PortsDirectory() {
     std::error_code error;
-    fs::remove_all(path, error);
+    fs::remove_all(path_, error);
   }
+  [[nodiscard]] const fs::path& path() const noexcept { return path_; }
 
-  fs::path path = fs::temp_directory_path() / fmt::format("lodesman-hil-{}", getpid());
+ private:
+  fs::path path_;
 };
 
 [[nodiscard]] int simulate(const SimOptions& options, const std::optional<BenchOptions>& bench) {
-  const PortsDirectory ports;
-  const BoatConfig configuration = simulated(options, bench, ports.path);
+  const PortsDirectory ports{bench.has_value()};
+  const BoatConfig configuration = simulated(options, bench, ports.path());
   Scenario scenario = load_named_scenario(options.scenario, configuration.speeds);
   scenario.seed = options.seed.value_or(scenario.seed);
   scenario.time_limit_s = options.time_limit_s.value_or(scenario.time_limit_s);
@@ -290,7 +300,7 @@ struct PortsDirectory {
     output.say(bench ? "the thrusters are emulated: armed by the launcher"
                      : "the thrusters are simulated: armed by the launcher");
   }
-  RunRecord record = run(options, configuration, scenario, ports.path, directory, bench, output);
+  RunRecord record = run(options, configuration, scenario, ports.path(), directory, bench, output);
   record.result.scenario = scenario.name;
   record.result.profile = options.profile;
   record.result.seed = static_cast<std::int64_t>(scenario.seed);
