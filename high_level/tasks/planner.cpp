@@ -14,8 +14,10 @@ namespace {
 constexpr double kStay_m = 1.5;  // a place to wait at is kept within this
 
 [[nodiscard]] bool has_no_thrust(ThrustReason reason) noexcept {
-  return reason == ThrustReason::kDeviceFailed || reason == ThrustReason::kNoThrusters ||
-         reason == ThrustReason::kDisarmed || reason == ThrustReason::kStopped;
+  return reason == ThrustReason::kDeviceFailed || reason == ThrustReason::kNoThrusters;
+}
+[[nodiscard]] bool may_not_turn(ThrustReason reason) noexcept {
+  return reason == ThrustReason::kDisarmed || reason == ThrustReason::kStopped;
 }
 
 // A frame is given its full age before its absence counts.
@@ -257,6 +259,8 @@ ProgressSample PlannerTask::progress_sample(Time now) noexcept {
     sample.cause = NoWayCause::kNoPosition;
   } else if (thrust == nullptr || has_no_thrust(thrust->value.reason)) {
     sample.cause = NoWayCause::kThrusters;
+  } else if (may_not_turn(thrust->value.reason)) {
+    sample.cause = NoWayCause::kDisarmed;
   } else if (!planned || plan->value.waypoint_count == 0) {
     sample.cause = NoWayCause::kNoPlan;
   }

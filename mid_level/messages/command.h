@@ -73,10 +73,11 @@ enum class NoWayCause : std::uint8_t {
   kNoPosition,  // the position is lost
   kNoPlan,      // there is nothing to follow
   kCurrent,     // it is carried elsewhere: the current is stronger than the boat
+  kDisarmed,    // nobody lets the thrusters turn: disarmed, or stopped by emergency
 };
 [[nodiscard]] constexpr auto enumerators(NoWayCause) noexcept {
-  return enumerators_to<NoWayCause::kCurrent>("none", "unknown", "thrusters", "no_heading",
-                                              "no_position", "no_plan", "current");
+  return enumerators_to<NoWayCause::kDisarmed>("none", "unknown", "thrusters", "no_heading",
+                                               "no_position", "no_plan", "current", "disarmed");
 }
 
 // Written by the planner task at every step; read by the controller, the world (its scenario's

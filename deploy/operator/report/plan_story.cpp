@@ -80,6 +80,7 @@ std::string describe(NoWayCause cause, double for_s) {
   const auto because = [cause] {
     switch (cause) {
       case NoWayCause::kThrusters: return "the thruster box takes no commands";
+      case NoWayCause::kDisarmed: return "the thrusters are disarmed";
       case NoWayCause::kNoHeading: return "the heading is lost";
       case NoWayCause::kNoPosition: return "the position is lost";
       case NoWayCause::kNoPlan: return "there is nothing to follow";

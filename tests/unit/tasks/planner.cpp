@@ -203,22 +203,31 @@ TEST_CASE("planner task: a sonar that falls silent is said in a plan", "[high_le
 
 TEST_CASE("planner task: it says when no way is made and that the thrusters are why",
           "[high_level][tasks]") {
-  Planner planner;
-  planner.order(OperatorOrder::kStart, kStart);
-  Writer<ThrustApplied> applied{planner.board->thrust_applied, Role::kLow, "thrust_applied"};
-  Writer<Attitude> attitudes{planner.board->attitude, Role::kLow, "attitude"};
-  ThrustApplied failed;
-  failed.reason = ThrustReason::kDeviceFailed;
-  Time now = kStart;
-  for (; now < kStart + seconds{16}; now += milliseconds{50}) {
-    planner.estimate(0.0, now);
-    applied.publish(failed, now);
-    attitudes.publish({now, 0.0, 0.0}, now);
-    CHECK(planner.after_step(now) == MissionState::kUnderWay);
-    const NoWayCause said = planner.statuses.latest()->value.no_way;
-    CHECK(said == (now - kStart < seconds{15} ? NoWayCause::kNone : NoWayCause::kThrusters));
+  const struct {
+    ThrustReason reason;
+    NoWayCause cause;
+  } rows[] = {{ThrustReason::kDeviceFailed, NoWayCause::kThrusters},
+              {ThrustReason::kNoThrusters, NoWayCause::kThrusters},
+              {ThrustReason::kDisarmed, NoWayCause::kDisarmed},
+              {ThrustReason::kStopped, NoWayCause::kDisarmed}};
+  for (const auto& row : rows) {
+    Planner planner;
+    planner.order(OperatorOrder::kStart, kStart);
+    Writer<ThrustApplied> applied{planner.board->thrust_applied, Role::kLow, "thrust_applied"};
+    Writer<Attitude> attitudes{planner.board->attitude, Role::kLow, "attitude"};
+    ThrustApplied failed;
+    failed.reason = row.reason;
+    Time now = kStart;
+    for (; now < kStart + seconds{16}; now += milliseconds{50}) {
+      planner.estimate(0.0, now);
+      applied.publish(failed, now);
+      attitudes.publish({now, 0.0, 0.0}, now);
+      CHECK(planner.after_step(now) == MissionState::kUnderWay);
+      const NoWayCause said = planner.statuses.latest()->value.no_way;
+      CHECK(said == (now - kStart < seconds{15} ? NoWayCause::kNone : row.cause));
+    }
+    CHECK(planner.statuses.latest()->value.no_way_since == kStart);
   }
-  CHECK(planner.statuses.latest()->value.no_way_since == kStart);
 }
 
 TEST_CASE(
