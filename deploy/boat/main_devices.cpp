@@ -16,6 +16,7 @@
 #include "deploy/boat/process_main.h"
 #include "mid_level/base/clock.h"
 #include "mid_level/base/startup_error.h"
+#include "mid_level/runtime/realtime_rights.h"
 
 namespace lodesman {
 namespace {
@@ -75,6 +76,10 @@ class Control {
   std::string text_;
 };
 
+// A device keeps its time whatever else the machine does. Above the boat's tasks: it is done in a
+// moment, and they would wait for it.
+constexpr int kPriority = 80;
+
 int run(DevicesOptions& options) {
   const BoatConfig config = load_configuration(options.profile, options.common);
   if (config.simulation.scenario.empty()) {
@@ -89,6 +94,7 @@ int run(DevicesOptions& options) {
   DeviceBench bench{options.bench, scenario, clock.now()};
   Control control{options.control};
   std::jthread stepping{[&](const std::stop_token& stop) {
+    static_cast<void>(hold_fifo_priority(kPriority));
     Time due = clock.now();
     while (!stop.stop_requested()) {
       bench.step(clock.now());
