@@ -18,7 +18,7 @@ export LODESMAN_BUILD=$build
 # count_of <name>: nothing where all is measured in full.
 count_of() {
   $reduced || return 0
-  awk -v name="$1" '$1 == name { count = $2 } END { print count ? count : 3 }' \
+  awk -v name="$1" '$1 == name { count = $2 } END { print count == "" ? 3 : count }' \
     tests/measure/reduced_counts
 }
 
