@@ -17,7 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kStopped = "stopped\n";
-constexpr std::string_view kClear = "clear\n";
 
 [[nodiscard]] fs::path from_environment(const char* name) {
   const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody writes it
@@ -78,15 +77,15 @@ Latch LatchFile::read() const {
   std::string text(kStopped.size() + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text == kStopped ? Latch::kStopped : text == kClear ? Latch::kClear : Latch::kUnreadable;
+  return text == kStopped ? Latch::kStopped : Latch::kUnreadable;
 }
 
 std::optional<std::string> LatchFile::follow(const ThrustStatus& status) {
   const bool stopped = status.state == ThrustState::kStopped;
-  if (written_ == stopped || (!written_ && !stopped && read() == Latch::kClear)) {
+  if (written_ == stopped) {
     return std::nullopt;
   }
-  if (write(stopped)) {
+  if (stopped ? write() : remove()) {
     written_ = stopped;
     complained_ = false;
     return std::nullopt;
@@ -97,11 +96,17 @@ std::optional<std::string> LatchFile::follow(const ThrustStatus& status) {
                              "outlive the power"};
 }
 
-bool LatchFile::write(bool stopped) const {
+bool LatchFile::remove() const {
+  std::error_code error;
+  const bool was_there = fs::remove(file_, error);
+  return !error && (!was_there || sync_directory(file_.parent_path()));
+}
+
+bool LatchFile::write() const {
   std::error_code error;
   fs::create_directories(file_.parent_path(), error);
   const fs::path beside = file_.string() + ".new";
-  if (!write_through(beside, stopped ? kStopped : kClear)) {
+  if (!write_through(beside, kStopped)) {
     return false;
   }
   fs::rename(beside, file_, error);

@@ -32,7 +32,8 @@ class LatchFile {
   [[nodiscard]] std::optional<std::string> follow(const ThrustStatus& status);
 
  private:
-  [[nodiscard]] bool write(bool stopped) const;
+  [[nodiscard]] bool write() const;
+  [[nodiscard]] bool remove() const;
 
   std::filesystem::path file_;
   std::optional<bool> written_;  // what the file says

@@ -39,9 +39,10 @@ void take_over(const std::optional<LatchFile>& latch, BoatConfig& config) {
   }
 }
 
-void keep(std::optional<LatchFile>& latch, Reader<ThrustStatus>& thrust) {
+// `begun`: what stood on the segment before is not this program's word.
+void keep(std::optional<LatchFile>& latch, Reader<ThrustStatus>& thrust, Time begun) {
   const auto* status = thrust.latest();
-  if (!latch || status == nullptr) {
+  if (!latch || status == nullptr || status->stamp < begun) {
     return;
   }
   if (const auto complaint = latch->follow(status->value)) {
@@ -64,6 +65,7 @@ int run(const LowOptions& options) {
   }
   std::optional<LatchFile> latch = latch_of(config);
   take_over(latch, config);
+  const Time begun = SteadyClock{}.now();
   AssembledBoat boat{board.writable(), config, scenario};
   if (const std::string missing = set_up_realtime(); !missing.empty()) {
     spdlog::warn("{}", missing);
@@ -81,7 +83,7 @@ int run(const LowOptions& options) {
     if (devices) {
       devices->say_news(SteadyClock{}.now());
     }
-    keep(latch, thrust);
+    keep(latch, thrust, begun);
     return false;
   });
   return kExitDone;

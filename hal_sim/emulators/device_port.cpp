@@ -79,7 +79,9 @@ class PtyLine final : public HostLine {
     }
     std::error_code error;
     fs::create_directories(name_.parent_path(), error);
-    fs::remove(name_, error);
+    if (fs::is_symlink(fs::symlink_status(name_, error))) {
+      fs::remove(name_, error);  // of a bench that was killed; anything else stays
+    }
     fs::create_symlink(slave.data(), name_, error);
     if (error) {
       unplug();
@@ -91,11 +93,12 @@ class PtyLine final : public HostLine {
   [[nodiscard]] static bool make_raw(const char* slave) {
     const int opened = ::open(slave, O_RDWR | O_NOCTTY | O_CLOEXEC);
     termios settings{};
-    if (opened < 0 || tcgetattr(opened, &settings) != 0) {
+    if (opened < 0) {
       return false;
     }
+    bool done = tcgetattr(opened, &settings) == 0;
     cfmakeraw(&settings);
-    const bool done = tcsetattr(opened, TCSANOW, &settings) == 0;
+    done = done && tcsetattr(opened, TCSANOW, &settings) == 0;
     return ::close(opened) == 0 && done;
   }
 

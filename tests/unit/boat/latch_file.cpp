@@ -48,6 +48,7 @@ TEST_CASE("latch: a stop outlives the power until it is released", "[boat]") {
   CHECK_FALSE(after.follow(in_state(ThrustState::kStopped)));
   CHECK_FALSE(after.follow(in_state(ThrustState::kDisarmed)));
   CHECK(after.read() == Latch::kClear);
+  CHECK_FALSE(fs::exists(file));
 }
 
 TEST_CASE("latch: what cannot be read is not taken for clear", "[boat]") {
