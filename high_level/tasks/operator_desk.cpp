@@ -139,6 +139,7 @@ const Stamped<MissionStatus>* OperatorDesk::fresh_mission(Time now) {
 }
 
 void OperatorDesk::look() {
+  thrust_.look();
   const Time now = now_();
   const auto* mission = fresh_mission(now);
   const MissionDefinition* definition = at_hand();

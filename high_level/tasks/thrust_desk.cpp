@@ -99,7 +99,7 @@ bool ThrustDesk::is_armed() {
          (now->state == ThrustState::kArmed || now->state == ThrustState::kManual);
 }
 
-void ThrustDesk::look() {
+void ThrustDesk::hear() {
   const ThrustStatus* newest = status();
   if (newest != nullptr) {
     stops_ = std::max(stops_, newest->stops);
@@ -111,14 +111,14 @@ void ThrustDesk::look() {
 }
 
 void ThrustDesk::publish(Order& order) {
-  orders_.publish({order.kind, order.stops}, now_());
+  orders_.publish({order.kind, order.stops}, order.given);
   order.sequence = orders_.sequence();
   in_hand_ = order.sequence;
   in_hand_since_ = now_();
 }
 
 Answer ThrustDesk::order(const CommandRequest& request) {
-  look();
+  hear();
   Order order{kind_of(request), now_(), stops_};
   if (order.kind == ThrustOrderKind::kStop) {
     order.stops = ++stops_;
@@ -131,7 +131,7 @@ Answer ThrustDesk::order(const CommandRequest& request) {
 
 // One that is answered by a later sequence was overtaken by what makes safe.
 std::optional<std::string> ThrustDesk::reply_to(Order& order) {
-  look();
+  hear();
   const ThrustStatus* newest = status();
   if (newest != nullptr && order.sequence != 0 && newest->order >= order.sequence) {
     return reply_of(order, *newest);
@@ -186,20 +186,37 @@ std::optional<std::string> ThrustDesk::move_stick(const CommandRequest& request)
 }
 
 void ThrustDesk::make_way() {
-  look();
+  hear();
   const ThrustStatus* newest = status();
   if (newest == nullptr) {
     return;
   }
-  Order order{ThrustOrderKind::kNone, now_(), stops_};
+  Order order{ThrustOrderKind::kToMission, now_(), stops_};
   if (newest->state == ThrustState::kManual) {
-    order.kind = ThrustOrderKind::kToMission;
+    publish(order);
   } else if (newest->state == ThrustState::kDisarmed && arms_by_itself_ &&
              newest->objections == 0) {
     order.kind = ThrustOrderKind::kArm;
-  }
-  if (order.kind != ThrustOrderKind::kNone) {
     publish(order);
+    way_ = order;
+  }
+}
+
+// It counts from when it was first given: a helm that asks for thrust since does so for the
+// mission.
+void ThrustDesk::look() {
+  hear();
+  const ThrustStatus* newest = status();
+  if (!way_ || in_hand_ != 0 || newest == nullptr) {
+    return;
+  }
+  const bool was_refused = newest->order == way_->sequence &&
+                           newest->answer == ThrustAnswer::kRefused &&
+                           newest->state == ThrustState::kDisarmed && stops_ == way_->stops;
+  if (!was_refused || now_() - way_->given > kPatience) {
+    way_.reset();
+  } else if ((newest->objections & ~bit(ArmObjection::kHelmNotAtRest)) == 0) {
+    publish(*way_);
   }
 }
 

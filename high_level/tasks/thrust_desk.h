@@ -29,6 +29,8 @@ class ThrustDesk {
   [[nodiscard]] std::optional<std::string> move_stick(const CommandRequest& request);
   // A mission is about to be sailed: the stick is out of the hand, and what may be armed is.
   void make_way();
+  // Every now and then: arming that was refused for what was over at once is tried once more.
+  void look();
 
   [[nodiscard]] bool is_armed();
 
@@ -41,7 +43,7 @@ class ThrustDesk {
   };
 
   void publish(Order& order);
-  void look();
+  void hear();
   [[nodiscard]] const ThrustStatus* status();
   [[nodiscard]] std::optional<std::string> reply_to(Order& order);
   [[nodiscard]] std::string reply_of(const Order& order, const ThrustStatus& status);
@@ -57,6 +59,7 @@ class ThrustDesk {
   std::uint64_t stops_ = 0;    // ordered
   std::uint64_t in_hand_ = 0;  // published, not yet answered; 0: none
   Time in_hand_since_{};
+  std::optional<Order> way_;  // the arming that a mission waits for
 };
 
 // What speaks against arming, in words, each followed by what mends it where there is something.

@@ -68,10 +68,14 @@ void ThrusterTask::look(Time now) noexcept {
                : box_ == CommandStatus::kNotReady ? ArmingView::Box::kNotReady
                                                   : ArmingView::Box::kGone;
   }
-  if (const auto* helm = helm_.fresh(now, max_age::kHelmCommand); helm != nullptr) {
-    view.high_is_heard = true;
-    view.helm_is_at_rest = helm->value.surge_ref == 0 && helm->value.head_ref == 0;
+  const auto* helm = helm_.fresh(now, max_age::kHelmCommand);
+  if (helm == nullptr || (helm->value.surge_ref == 0 && helm->value.head_ref == 0)) {
+    helm_asks_ = Time{};
+  } else if (helm_asks_ == Time{}) {
+    helm_asks_ = helm->stamp;
   }
+  view.high_is_heard = helm != nullptr;
+  view.helm_asks = helm_asks_;
   if (const auto* stick = stick_.fresh(now, max_age::kManualInput); stick != nullptr) {
     view.stick = stick->stamp;
     view.stick_is_at_rest = stick->value.surge_ref == 0 && stick->value.head_ref == 0;

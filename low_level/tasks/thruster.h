@@ -72,6 +72,7 @@ class ThrusterTask final : public Task {
   bool begun_ = false;
   CommandStatus box_ = CommandStatus::kNotReady;  // to the last command
   std::uint64_t obeyed_ = 0;                      // sequence of the last order that was taken
+  Time helm_asks_{};                              // for thrust, since then; 0: it does not
   BatteryLevel told_level_ = BatteryLevel::kUnknown;
   Time battery_told_{};
 };

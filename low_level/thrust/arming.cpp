@@ -85,10 +85,10 @@ void Arming::look(const ArmingView& view, Time now) noexcept {
   } else if (view.stick != Time{} && view.stick > status_.armed && view.stick > status_.since) {
     happen(Event::kStick, ThrustCause::kOrder, now);
   }
-  status_.objections = objections();
+  status_.objections = objections(now);
 }
 
-std::uint32_t Arming::objections() const noexcept {
+std::uint32_t Arming::objections(Time given) const noexcept {
   const auto when = [](bool is_so, ArmObjection objection) noexcept {
     return is_so ? bit(objection) : 0U;
   };
@@ -97,7 +97,7 @@ std::uint32_t Arming::objections() const noexcept {
          when(view_.box == ArmingView::Box::kGone, ArmObjection::kBoxGone) |
          when(view_.box == ArmingView::Box::kNotReady, ArmObjection::kBoxNotReady) |
          when(!view_.high_is_heard, ArmObjection::kHighSilent) |
-         when(!view_.helm_is_at_rest, ArmObjection::kHelmNotAtRest) |
+         when(view_.helm_asks != Time{} && view_.helm_asks <= given, ArmObjection::kHelmNotAtRest) |
          when(!view_.stick_is_at_rest, ArmObjection::kStickNotAtRest) |
          when(view_.battery_is_critical, ArmObjection::kBatteryCritical);
 }
@@ -119,15 +119,15 @@ void Arming::obey(const ThrustOrder& order, std::uint64_t sequence, Time given, 
   } else if (now - given > kThrustOrderPatience && order.order != ThrustOrderKind::kDisarm) {
     status_.answer = ThrustAnswer::kTooOld;
   } else {
-    status_.answer = answer_to(order.order, now);
+    status_.answer = answer_to(order.order, given, now);
   }
-  status_.objections = objections();
+  status_.objections = objections(now);
 }
 
-ThrustAnswer Arming::answer_to(ThrustOrderKind order, Time now) noexcept {
+ThrustAnswer Arming::answer_to(ThrustOrderKind order, Time given, Time now) noexcept {
   switch (order) {
     case ThrustOrderKind::kArm:
-      status_.refused_for = objections();
+      status_.refused_for = objections(given);
       if (status_.refused_for != 0) {
         return ThrustAnswer::kRefused;
       }

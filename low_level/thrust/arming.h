@@ -26,11 +26,11 @@ struct ArmingView {
 
   Box box = Box::kAbsent;
   bool high_is_heard = false;
-  bool helm_is_at_rest = true;   // it asks for no thrust
-  bool stick_is_at_rest = true;  // nor does a stick that is heard
+  bool stick_is_at_rest = true;  // or not heard
   bool battery_is_critical = false;
-  Time stick{};    // [ns] when the stick last spoke; 0: never
-  Time aborted{};  // [ns] when the mission was aborted, as long as it stands; 0: it is not
+  Time helm_asks{};  // [ns] since when the helm asks for thrust; 0: it does not
+  Time stick{};      // [ns] when the stick last spoke; 0: never
+  Time aborted{};    // [ns] when the mission was aborted, as long as it stands; 0: it is not
 };
 
 class Arming {
@@ -68,8 +68,9 @@ class Arming {
 
   // False where the state knows no such event.
   bool happen(Event event, ThrustCause cause, Time now) noexcept;
-  [[nodiscard]] ThrustAnswer answer_to(ThrustOrderKind order, Time now) noexcept;
-  [[nodiscard]] std::uint32_t objections() const noexcept;
+  [[nodiscard]] ThrustAnswer answer_to(ThrustOrderKind order, Time given, Time now) noexcept;
+  // To an order given then. A helm that began to ask later does so because of it.
+  [[nodiscard]] std::uint32_t objections(Time given) const noexcept;
 
   ThrustStatus status_;
   ArmingView view_;

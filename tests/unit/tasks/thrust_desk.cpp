@@ -154,6 +154,46 @@ TEST_CASE("thrust desk: the stick moves what is armed and nothing else", "[high_
   CHECK(bench.desk.move_stick(word) == "the low level is silent");
 }
 
+TEST_CASE("thrust desk: arming for a mission is tried again where the reason is over at once",
+          "[high_level][tasks]") {
+  ThrustBench bench{true};
+  const Time given = bench.now;
+  bench.desk.make_way();
+  CHECK(bench.given() == Kinds{ThrustOrderKind::kArm});
+  bench.desk.look();
+  CHECK(bench.given().empty());  // not answered yet
+  ThrustStatus silent;
+  silent.objections = bit(ArmObjection::kHighSilent);
+  bench.tell(silent);
+  bench.answer(ThrustState::kDisarmed, ThrustAnswer::kRefused, silent.objections);
+  bench.desk.look();
+  CHECK(bench.given().empty());  // the reason stands
+  bench.tell([&] {
+    ThrustStatus heard = bench.last;
+    heard.objections = bit(ArmObjection::kHelmNotAtRest);
+    return heard;
+  }());
+  bench.desk.look();
+  CHECK(bench.orders.latest()->stamp == given);
+  CHECK(bench.given() == Kinds{ThrustOrderKind::kArm});
+  SECTION("until it is armed") {
+    bench.answer(ThrustState::kArmed, ThrustAnswer::kObeyed);
+    bench.desk.look();
+    bench.answer(ThrustState::kDisarmed, ThrustAnswer::kObeyed);
+  }
+  SECTION("not after a stop") {
+    (void)bench.desk.order(bench.word("estop"));
+    CHECK(bench.given() == Kinds{ThrustOrderKind::kStop});
+    bench.answer(ThrustState::kStopped, ThrustAnswer::kObeyed);
+  }
+  SECTION("not for ever") {
+    bench.now += std::chrono::seconds{3};
+    bench.answer(ThrustState::kDisarmed, ThrustAnswer::kRefused);
+  }
+  bench.desk.look();
+  CHECK(bench.given().empty());
+}
+
 TEST_CASE("thrust desk: what makes way for a mission", "[high_level][tasks]") {
   for (const bool arms_by_itself : {false, true}) {
     ThrustBench bench{arms_by_itself};

@@ -61,7 +61,7 @@ TEST_CASE("arming: a refusal lists every reason at once", "[thrust]") {
   CHECK(bench.arming.status().objections == 0);
   bench.view.box = ArmingView::Box::kNotReady;
   bench.view.high_is_heard = false;
-  bench.view.helm_is_at_rest = false;
+  bench.view.helm_asks = bench.now;
   bench.view.stick_is_at_rest = false;
   bench.view.battery_is_critical = true;
   bench.look();
@@ -81,12 +81,26 @@ TEST_CASE("arming: a refusal lists every reason at once", "[thrust]") {
 
 TEST_CASE("T13: it is not armed while helm or stick ask for thrust", "[thrust]") {
   Bench bench;
-  bench.view.helm_is_at_rest = false;
+  bench.view.helm_asks = bench.now;
   bench.look();
   CHECK(bench.give(ThrustOrderKind::kArm) == ThrustAnswer::kRefused);
-  bench.view.helm_is_at_rest = true;
+  bench.view.helm_asks = Time{};
   bench.look();
   CHECK(bench.give(ThrustOrderKind::kArm) == ThrustAnswer::kObeyed);
+}
+
+// A start gives both words; where the thruster task comes to its turn late, the helm moves already.
+TEST_CASE("arming: an order given before the helm began to ask is obeyed after it has",
+          "[thrust]") {
+  Bench bench;
+  const Time given = bench.now;
+  bench.pass(milliseconds{20});
+  bench.view.helm_asks = bench.now;
+  bench.pass(milliseconds{20});
+  CHECK(bench.arming.status().objections == bit(ArmObjection::kHelmNotAtRest));
+  bench.arming.obey({ThrustOrderKind::kArm, 0}, 1, given, bench.now);
+  CHECK(bench.arming.status().answer == ThrustAnswer::kObeyed);
+  CHECK(bench.state() == ThrustState::kArmed);
 }
 
 TEST_CASE("T14: an emergency stop stands until it is released, and then it has to be armed anew",
