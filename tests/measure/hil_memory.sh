@@ -11,15 +11,16 @@ minutes=${1:-60}
 run=
 trap '[ -z "$run" ] || kill "$run" 2>/dev/null || true; rm -rf "$place"' EXIT INT TERM
 
+# 160 m, some 12 minutes.
 corners='[0.0, 40.0], [40.0, 40.0], [40.0, 0.0], [0.0, 0.0]'
 rounds=$corners
-for ((round = 1; round * 10 < minutes; round++)); do
+for ((round = 1; round * 12 < minutes; round++)); do
   rounds="$rounds, $corners"
 done
 cat >"$place/round.toml" <<END
 name = "round"
 seed = 1
-time_limit_s = $((minutes * 60)).0
+time_limit_s = $(((round + 1) * 15 * 60)).0
 [mission]
 start_m = [0.0, 0.0]
 start_heading_deg = 0.0
@@ -48,6 +49,7 @@ while kill -0 "$run" 2>/dev/null; do
       printf '%8s %-18s %12s %12s\n' "$minute" "$name" "$memory" "$descriptors" |
       tee -a "$place/table"
   done
+  [ $((SECONDS - begun)) -lt $((minutes * 60)) ] || kill "$run"
   for ((i = 0; i < 60; i++)); do
     kill -0 "$run" 2>/dev/null || break
     sleep 1
@@ -56,7 +58,7 @@ done
 status=0
 wait "$run" || status=$?
 run=
-[ $status -le 1 ] || { cat "$place/said" >&2; broken "hil ends with status $status"; }  # 1: the limit
+[ $status -le 1 ] || { cat "$place/said" >&2; broken "hil ends with status $status"; }  # 1: ended here
 awk '{ if (!($2 in n)) { order[++names] = $2 }
        n[$2]++; at[$2, n[$2]] = $1; memory[$2, n[$2]] = $3; held[$2, n[$2]] = $4 }
      END {
