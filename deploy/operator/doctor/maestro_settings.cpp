@@ -119,8 +119,7 @@ void Judgement::judge_mode(std::uint8_t mode) {
     case MaestroSettings::kUsbDualPort: return;
     case MaestroSettings::kUsbChained:
       add(Verdict::kInfo,
-          "its serial mode is USB Chained: what stands at its TX pin hears the "
-          "commands too",
+          "its serial mode is USB Chained: what hangs on its TX pin hears the commands too",
           remedy);
       return;
     case MaestroSettings::kUartDetect:
@@ -150,9 +149,7 @@ void Judgement::judge_time_out(Duration time_out) {
   }
   if (time_out == Duration::zero()) {
     add(Verdict::kBad,
-        "it has no serial time-out: thrust would go on for ever after the last "
-        "command",
-        remedy);
+        "it has no serial time-out: thrust would go on for ever after the last command", remedy);
   } else {
     // A shorter one stops the boat sooner than it has to be.
     add(time_out > wanted ? Verdict::kBad : Verdict::kWarn,
@@ -195,7 +192,7 @@ void Judgement::judge_home(unsigned number, int home_quarter_us) {
   add(Verdict::kBad, fmt::format("on start-up and error channel {} {}", number, what),
       set_by(fmt::format("tab Channel Settings, channel {}: On startup or error Go to {:g}", number,
                          needs_.options.neutral_us),
-             fmt::format("homemode=\"Goto\" home=\"{}\"", neutral)));
+             fmt::format("homemode=\"Goto\" home=\"{}\" of channel {}", neutral, number)));
 }
 
 // A box clips targets to its limits and says nothing; a position that is far from what was sent
@@ -217,9 +214,10 @@ void Judgement::judge_limits(unsigned number, const MaestroChannel& channel, boo
       fmt::format("channel {} is limited to {:g} to {:g} us, and thrust needs {:g} to {:g} us",
                   number, microseconds(channel.least_quarter_us),
                   microseconds(channel.most_quarter_us), microseconds(least), microseconds(most)),
-      set_by(fmt::format("tab Channel Settings, channel {}: Min {:g}, Max {:g}", number,
-                         microseconds(outside_least), microseconds(outside_most)),
-             fmt::format("min=\"{}\" max=\"{}\"", outside_least, outside_most)));
+      set_by(
+          fmt::format("tab Channel Settings, channel {}: Min {:g}, Max {:g}", number,
+                      microseconds(outside_least), microseconds(outside_most)),
+          fmt::format("min=\"{}\" max=\"{}\" of channel {}", outside_least, outside_most, number)));
 }
 
 void Judgement::judge_channel(unsigned number, const MaestroChannel& channel, bool reversed) {
@@ -231,7 +229,7 @@ void Judgement::judge_channel(unsigned number, const MaestroChannel& channel, bo
                     "positions that lag behind read as a box that was reset",
                     number),
         set_by(fmt::format("tab Channel Settings, channel {}: Speed 0, Acceleration 0", number),
-               "speed=\"0\" acceleration=\"0\""));
+               fmt::format("speed=\"0\" acceleration=\"0\" of channel {}", number)));
   }
 }
 
