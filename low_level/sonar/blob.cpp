@@ -52,10 +52,10 @@ Moments moments_of(const PolarGrid& grid, std::span<const std::uint32_t> cells) 
 
 }  // namespace
 
-void PolarGrid::set(const SonarPing& ping) noexcept {
-  bins = ping.bins;
-  bin_depth_m = ping.range_m / ping.bins;
-  beam_width_rad = ping.sector_rad / ping.beams;
+void PolarGrid::set(const SonarPing& ping, std::uint32_t bins_of_range) noexcept {
+  bins = bins_of_range;
+  bin_depth_m = ping.range_m / bins;
+  beam_width_rad = ping.beam_step_rad;
   for (std::uint32_t beam = 0; beam < ping.beams; ++beam) {
     sine[beam] = std::sin(ping.bearing_rad(beam));
     cosine[beam] = std::cos(ping.bearing_rad(beam));

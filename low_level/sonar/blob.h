@@ -20,7 +20,8 @@ struct PolarGrid {
   std::array<double, kMaxBeams> sine{};    // [-] of each beam's bearing
   std::array<double, kMaxBeams> cosine{};  // [-]
 
-  void set(const SonarPing& ping) noexcept;
+  // With so many bins of range, whatever the ping itself has.
+  void set(const SonarPing& ping, std::uint32_t bins_of_range) noexcept;
   struct Place {
     double range_m;  // [m]
     double sine;     // [-] of the bearing

@@ -129,10 +129,7 @@ TEST_CASE("sane: the echoes of a ping are as many as its beams and bins say",
           "[mid_level][messages]") {
   auto ping = std::make_unique<SonarPing>();
   ping->range_m = 30.0;
-  ping->sector_rad = 2.0;
-  ping->beams = 4;
-  ping->bins = 5;
-  ping->echo_count = 20;
+  ping->make_image(4, 5, 2.0);
   CHECK(sane(*ping));
   ping->echo_count = 21;
   CHECK_FALSE(sane(*ping));
