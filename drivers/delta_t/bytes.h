@@ -36,7 +36,7 @@ using Bytes = std::span<const std::uint8_t>;
                                                              double most) noexcept {
   constexpr double kLeast = 1e-6;
   for (const std::uint32_t bits : {long_at(bytes, at), low_first_long_at(bytes, at)}) {
-    const double value{std::bit_cast<float>(bits)};
+    const auto value = static_cast<double>(std::bit_cast<float>(bits));
     const double size = std::abs(value);
     if ((bits & 0x7FFFFFFFU) == 0 || (size >= kLeast && size <= most)) {
       return value;

@@ -100,7 +100,7 @@ void read_common(Bytes bytes, Header& h) noexcept {
 // The rest, which of an image nothing depends on.
 void read_extended(Bytes bytes, Header& h) noexcept {
   for (std::size_t i = 0; i < h.offset_m.size(); ++i) {
-    const double offset_m{std::bit_cast<float>(long_at(bytes, 100 + 4 * i))};
+    const auto offset_m = static_cast<double>(std::bit_cast<float>(long_at(bytes, 100 + 4 * i)));
     h.offset_m[i] = std::isfinite(offset_m) ? offset_m : 0.0;
   }
   h.milliseconds = text_at<5>(bytes, 112);

@@ -40,6 +40,9 @@ void ProfileDetector::detect(const SonarPing& ping, SonarObstacles& out) noexcep
   blobs_.begin();
   if (is_profile(ping)) {
     grid_.set(ping, kBins);
+    // As deep as gives an even spread the variance of the noise.
+    grid_.echo_depth_m =
+        std::max(grid_.bin_depth_m, std::sqrt(12.0) * options_.profile.range_noise_m);
     for (std::uint32_t beam = 0; beam < ping.beams; ++beam) {
       strength_[beam] =
           static_cast<std::uint8_t>(std::min(ping.points[beam].intensity, kBrightest));

@@ -206,21 +206,21 @@ TEST_CASE("delta t record: reals whose byte order is in doubt are read by what t
           "[drivers]") {
   ByteList bytes = testing::profile_vector();
   bytes[137] = 7;
-  const auto set_real = [&](std::size_t at, float value, bool low_first) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
+  const auto set_real = [&](std::size_t at, double value, bool low_first) {
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
     for (std::size_t i = 0; i < 4; ++i) {
       bytes[at + i] = static_cast<std::uint8_t>(bits >> (low_first ? 8 * i : 24 - 8 * i));
     }
   };
   for (const bool low_first : {false, true}) {
-    for (const float value : {-12.25F, 3.3F, 181.0F, 0.01F}) {
+    for (const double value : {-12.25, 3.3, 181.0, 0.01}) {
       set_real(138, value, low_first);
       set_real(142, -value, low_first);
-      set_real(146, 359.5F, low_first);
-      set_real(133, 1.75F, low_first);
+      set_real(146, 359.5, low_first);
+      set_real(133, 1.75, low_first);
       const Header h = good(bytes).header;
-      CHECK(to_deg(h.external_pitch_rad.value()) == Approx(double{value}));
-      CHECK(to_deg(h.external_roll_rad.value()) == Approx(double{-value}));
+      CHECK(to_deg(h.external_pitch_rad.value()) == Approx(value));
+      CHECK(to_deg(h.external_roll_rad.value()) == Approx(-value));
       CHECK(to_deg(h.external_heading_rad.value()) == Approx(359.5));
       CHECK(h.altitude_m.value() == Approx(1.75));
     }

@@ -139,6 +139,24 @@ TEST_CASE("sane: the echoes of a ping are as many as its beams and bins say",
   CHECK_FALSE(sane(*ping));
 }
 
+TEST_CASE("sane: a profile has a point a beam and no echoes", "[mid_level][messages]") {
+  auto ping = std::make_unique<SonarPing>();
+  ping->range_m = 30.0;
+  ping->make_image(4, 5, 2.0);
+  ping->kind = PingKind::kProfile;
+  CHECK_FALSE(sane(*ping));
+  ping->bins = ping->echo_count = 0;
+  CHECK_FALSE(sane(*ping));
+  ping->point_count = 4;
+  CHECK(sane(*ping));
+  ping->points[3].range_m = -1.0;
+  CHECK_FALSE(sane(*ping));
+  ping->points[3].range_m = 12.0;
+  CHECK(sane(*ping));
+  ping->sector_rad = 2.1;  // not what its beams cover
+  CHECK_FALSE(sane(*ping));
+}
+
 TEST_CASE("sane: times lie between the start of the clock and a day when they can still be added",
           "[mid_level][messages]") {
   Attitude attitude;
