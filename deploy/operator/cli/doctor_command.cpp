@@ -8,6 +8,7 @@
 #include "deploy/operator/cli/common_options.h"
 #include "deploy/operator/doctor/diagnosis.h"
 #include "deploy/operator/doctor/machine.h"
+#include "deploy/operator/doctor/maestro_boxes.h"
 #include "deploy/operator/doctor/port_diagnosis.h"
 #include "deploy/operator/doctor/ports.h"
 #include "mid_level/base/startup_error.h"
@@ -15,21 +16,37 @@
 namespace lodesman::cli {
 namespace {
 
-// None where the configuration cannot be read, of which the machine's findings tell.
-[[nodiscard]] std::vector<NamedPort> named_ports(const CommonOptions& options) {
+struct Wanted {
+  std::vector<NamedPort> ports;
+  MaestroNeeds box;
+};
+
+// Nothing where the configuration cannot be read, of which the machine's findings tell.
+[[nodiscard]] Wanted wanted_by(const CommonOptions& options) {
   try {
-    return ports_named_in(load_configuration("default", options).devices);
+    const BoatConfig config = load_configuration("default", options);
+    return {ports_named_in(config.devices),
+            maestro_needs(config.devices.thrusters, config.thrust_shape)};
   } catch (const StartupError&) {
     return {};
   }
 }
 
+[[nodiscard]] std::vector<Finding> all_findings(const CommonOptions& options) {
+  std::vector<Finding> findings = judge(measure_machine(options));
+  const auto add = [&findings](const std::vector<Finding>& more) {
+    findings.insert(findings.end(), more.begin(), more.end());
+  };
+  const Wanted wanted = wanted_by(options);
+  const PortsFacts ports = measure_ports(wanted.ports);
+  add(judge_ports(ports));
+  add(judge_maestros(measure_maestros(ports, wanted.box), wanted.box));
+  return findings;
+}
+
 [[nodiscard]] int doctor(const CommonOptions& options) {
   using Json = nlohmann::ordered_json;
-  std::vector<Finding> findings = judge(measure_machine(options));
-  for (Finding& finding : judge_ports(measure_ports(named_ports(options)))) {
-    findings.push_back(std::move(finding));
-  }
+  const std::vector<Finding> findings = all_findings(options);
   const bool bad = any_bad(findings);
   if (options.json) {
     Json list = Json::array();
@@ -57,7 +74,7 @@ void add_doctor_command(CLI::App& root, int& exit_status) {
       root.add_subcommand("doctor", "What this machine lacks, with the command that mends it");
   add_common_options(*command, *options);
   command->footer(
-      "Example: lodesman doctor --config boat.toml   # and the serial ports that it names\n\n"
+      "Example: lodesman doctor --config boat.toml   # its serial ports and thruster box\n\n"
       "Exit status 4 where something is bad.");
   command->callback([options, &exit_status] { exit_status = doctor(*options); });
 }
