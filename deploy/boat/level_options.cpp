@@ -22,6 +22,10 @@ SegmentationOptions read_segmentation_options(const TomlTable& table) {
       .protection_margin_m = table.number("protection_margin_m", Range::between(0.0, 100.0)),
       .stripe_fraction = table.number("stripe_fraction", Range::above(0.0, 1.0)),
       .stripe_max_beams = count("stripe_max_beams", 0, kMaxBeams),
+      .profile = {.min_points = count("profile_min_points", 1, kMaxBeams),
+                  .least_incidence_rad = to_rad(
+                      table.number("profile_least_incidence_deg", Range::between(1.0, 89.0))),
+                  .range_noise_m = table.number("profile_range_noise_m", Range::above(0.0, 10.0))},
   };
 }
 

@@ -39,10 +39,7 @@ void SimSonar::listen(const WorldSample& world, SonarPing& out) noexcept {
   out.number = pings_;
   out.captured = world.stamp;
   out.range_m = settings_.range_m;
-  out.sector_rad = settings_.sector_rad;
-  out.beams = settings_.beams;
-  out.bins = settings_.bins;
-  out.echo_count = settings_.beams * settings_.bins;
+  out.make_image(settings_.beams, settings_.bins, settings_.sector_rad);
   std::fill_n(out.echo.begin(), out.echo_count, std::uint8_t{0});
   scene_.clear();
   for (const MovingObstacle& mover : obstacles_) {

@@ -29,7 +29,7 @@ Moments moments_of(const PolarGrid& grid, std::span<const std::uint32_t> cells) 
   }
   m.mean_x /= m.weight;
   m.mean_y /= m.weight;
-  const double depth_variance = grid.bin_depth_m * grid.bin_depth_m / 12.0;
+  const double depth_variance = grid.echo_depth_m * grid.echo_depth_m / 12.0;
   for (const std::uint32_t cell : cells) {
     const PolarGrid::Place p = grid.place(cell);
     const double weight = p.range_m;
@@ -52,10 +52,10 @@ Moments moments_of(const PolarGrid& grid, std::span<const std::uint32_t> cells) 
 
 }  // namespace
 
-void PolarGrid::set(const SonarPing& ping) noexcept {
-  bins = ping.bins;
-  bin_depth_m = ping.range_m / ping.bins;
-  beam_width_rad = ping.sector_rad / ping.beams;
+void PolarGrid::set(const SonarPing& ping, std::uint32_t bins_of_range) noexcept {
+  bins = bins_of_range;
+  bin_depth_m = echo_depth_m = ping.range_m / bins;
+  beam_width_rad = ping.beam_step_rad;
   for (std::uint32_t beam = 0; beam < ping.beams; ++beam) {
     sine[beam] = std::sin(ping.bearing_rad(beam));
     cosine[beam] = std::cos(ping.bearing_rad(beam));
@@ -75,7 +75,7 @@ BlobEllipse moment_ellipse(const PolarGrid& grid, std::span<const std::uint32_t>
   e.axis_y = std::cos(turn);
   // Half a cell at the least, whatever rounding does to the smaller eigenvalue.
   const double width_m = grid.place(cells[0]).range_m * grid.beam_width_rad;
-  const double least_m = 0.5 * std::min(grid.bin_depth_m, width_m);
+  const double least_m = 0.5 * std::min(grid.echo_depth_m, width_m);
   e.first_m = std::max(2.0 * std::sqrt(middle + spread), least_m);
   e.second_m = std::max(2.0 * std::sqrt(std::max(middle - spread, 0.0)), least_m);
   return e;
@@ -111,7 +111,7 @@ BlobEllipse enclose(const PolarGrid& grid, std::span<const std::uint32_t> cells,
   e.first_m *= scale;
   e.second_m *= scale;
   e.nearest_m = nearest_m;
-  const double blob_area = total * grid.bin_depth_m * grid.beam_width_rad;
+  const double blob_area = total * grid.echo_depth_m * grid.beam_width_rad;
   e.fill = blob_area / (std::numbers::pi * e.first_m * e.second_m);
   return e;
 }

@@ -16,11 +16,13 @@ namespace lodesman {
 struct PolarGrid {
   std::uint32_t bins = 0;                  // [-] of a beam: cell = beam * bins + bin
   double bin_depth_m = 0.0;                // [m] of one bin along its beam
+  double echo_depth_m = 0.0;               // [m] over which what a bin stands for is spread
   double beam_width_rad = 0.0;             // [rad] from one beam to the next
   std::array<double, kMaxBeams> sine{};    // [-] of each beam's bearing
   std::array<double, kMaxBeams> cosine{};  // [-]
 
-  void set(const SonarPing& ping) noexcept;
+  // With so many bins of range, whatever the ping itself has.
+  void set(const SonarPing& ping, std::uint32_t bins_of_range) noexcept;
   struct Place {
     double range_m;  // [m]
     double sine;     // [-] of the bearing

@@ -144,9 +144,7 @@ void polar_to_ping(const GreyImage& image, const std::filesystem::path& file, So
                      " pixels: a polar image has at most " + std::to_string(kMaxBeams) +
                      " beams x " + std::to_string(kMaxBins) + " bins; is it --layout fan?");
   }
-  out.beams = image.columns;
-  out.bins = image.rows;
-  out.echo_count = out.beams * out.bins;
+  out.make_image(image.columns, image.rows, out.sector_rad);
   for (std::uint32_t beam = 0; beam < out.beams; ++beam) {
     for (std::uint32_t bin = 0; bin < out.bins; ++bin) {
       out.echo[beam * out.bins + bin] = image.pixels[bin * image.columns + beam];
@@ -162,10 +160,11 @@ FanGeometry whole_image_fan(const GreyImage& image, bool apex_at_bottom) noexcep
 
 void fan_to_ping(const GreyImage& image, const FanGeometry& fan, SonarPing& out) noexcept {
   const double degrees = std::round(to_deg(out.sector_rad));
-  out.beams = static_cast<std::uint32_t>(std::clamp(degrees, 1.0, static_cast<double>(kMaxBeams)));
-  out.bins = static_cast<std::uint32_t>(
-      std::clamp(std::round(fan.radius_px), 1.0, static_cast<double>(kMaxBins)));
-  out.echo_count = out.beams * out.bins;
+  out.make_image(
+      static_cast<std::uint32_t>(std::clamp(degrees, 1.0, static_cast<double>(kMaxBeams))),
+      static_cast<std::uint32_t>(
+          std::clamp(std::round(fan.radius_px), 1.0, static_cast<double>(kMaxBins))),
+      out.sector_rad);
   const double down = fan.range_upwards ? -1.0 : 1.0;
   for (std::uint32_t beam = 0; beam < out.beams; ++beam) {
     const double s = std::sin(out.bearing_rad(beam));

@@ -18,7 +18,8 @@ inline constexpr std::uint64_t kMaxImagePixels = 64'000'000;
 // An 8-bit PGM, PNG or JPEG. Throws StartupError `file:1: image: reason`.
 [[nodiscard]] GreyImage read_grey_image(const std::filesystem::path& file);
 
-// Polar: a column a beam, left to right; a row a range bin, row 0 nearest.
+// Polar: a column a beam, left to right; a row a range bin, row 0 nearest. `out` has its sector and
+// range set.
 // Throws StartupError naming `file` where the image has more beams or bins than a ping.
 void polar_to_ping(const GreyImage& image, const std::filesystem::path& file, SonarPing& out);
 

@@ -10,16 +10,15 @@
 namespace lodesman {
 namespace {
 
-// 2^8 pieces: a blob as long as the view's arc at 30 m (63 m) still comes out in quarter metres.
-constexpr std::uint32_t kMaxSplits = 8;
 // The usual level of a stripe's beam is what all but this part of its bins stay below.
 constexpr double kStripeOutliers = 0.05;
 
 bool is_valid(const SonarPing& ping) noexcept {
-  return ping.beams >= 1 && ping.beams <= kMaxBeams && ping.bins >= 1 && ping.bins <= kMaxBins &&
-         ping.echo_count == ping.beams * ping.bins && std::isfinite(ping.range_m) &&
-         ping.range_m > 0.0 && std::isfinite(ping.sector_rad) && ping.sector_rad > 0.0 &&
-         ping.sector_rad <= std::numbers::pi;
+  return ping.kind == PingKind::kImage && ping.beams >= 1 && ping.beams <= kMaxBeams &&
+         ping.bins >= 1 && ping.bins <= kMaxBins && ping.echo_count == ping.beams * ping.bins &&
+         std::isfinite(ping.range_m) && ping.range_m > 0.0 && std::isfinite(ping.sector_rad) &&
+         ping.sector_rad <= std::numbers::pi && std::isfinite(ping.first_bearing_rad) &&
+         ping.beam_step_rad > 0.0 && ping.beam_step_rad <= std::numbers::pi;
 }
 
 std::uint32_t first_used_bin(const SonarPing& ping, double min_range_m) noexcept {
@@ -50,6 +49,7 @@ std::uint8_t usual_level(std::span<const std::uint8_t> beam) noexcept {
 
 Segmenter::Segmenter(const SegmentationOptions& options)
     : options_{options},
+      blobs_{options},
       echo_(kMaxBeams * kMaxBins),
       bright_(kMaxBeams * kMaxBins),
       cells_(kMaxBeams * kMaxBins) {
@@ -57,30 +57,27 @@ Segmenter::Segmenter(const SegmentationOptions& options)
   LODESMAN_CHECK(options.min_range_m >= 0.0 && options.min_blob_bins >= 1);
   LODESMAN_CHECK(options.join_beams >= 1 && options.join_beams <= kMaxJoin);
   LODESMAN_CHECK(options.join_bins >= 1 && options.join_bins <= kMaxJoin);
-  LODESMAN_CHECK(options.max_obstacle_length_m > 0.0 && options.protection_margin_m >= 0.0);
-  LODESMAN_CHECK(options.enclosed_fraction >= 0.5 && options.enclosed_fraction <= 0.99);
 }
 
 void Segmenter::segment(const SonarPing& ping, SonarObstacles& out) noexcept {
   out.frame = ping.number;
   out.captured = ping.captured;
   out.range_m = ping.range_m;
-  found_count_ = 0;
-  dropped_ = 0;
+  blobs_.begin();
   if (is_valid(ping)) {
-    grid_.set(ping);
+    grid_.set(ping, ping.bins);
     copy_without_stripes(ping);
     mark_bright(ping);
     for (std::uint32_t cell = 0; cell < ping.echo_count; ++cell) {
       if (bright_[cell] != 0) {
         const std::size_t size = grow_blob(ping, cell);
         if (size >= options_.min_blob_bins) {
-          add_blob(size);
+          blobs_.add(grid_, std::span{cells_}.first(size), {echo_, 1, options_.threshold});
         }
       }
     }
   }
-  write(out);
+  blobs_.write(out);
 }
 
 void Segmenter::copy_without_stripes(const SonarPing& ping) noexcept {
@@ -169,84 +166,6 @@ std::size_t Segmenter::grow_blob(const SonarPing& ping, std::uint32_t seed) noex
     }
   }
   return size;
-}
-
-bool Segmenter::must_split(const BlobEllipse& ellipse) const noexcept {
-  const double length_m = 2.0 * ellipse.first_m;
-  const double longest_m = options_.max_obstacle_length_m;
-  return length_m > longest_m || (length_m > 0.5 * longest_m && ellipse.fill < options_.min_fill);
-}
-
-// One ellipse round a long or bent wall would cover free water, so the blob is halved across its
-// longer axis until each piece is short: several ellipses along the wall, as in Fig. 9b.
-void Segmenter::add_blob(std::size_t size) noexcept {
-  struct Piece {
-    std::span<std::uint32_t> cells;
-    std::uint32_t splits;
-  };
-  std::array<Piece, kMaxSplits + 1> pieces{};  // each level leaves one sibling waiting
-  std::size_t waiting = 0;
-  pieces[waiting++] = {std::span{cells_}.first(size), 0};
-  while (waiting > 0) {
-    const Piece piece = pieces[--waiting];
-    const BlobEllipse moments = moment_ellipse(grid_, piece.cells);
-    const BlobEllipse ellipse = enclose(grid_, piece.cells, moments, options_.enclosed_fraction);
-    if (piece.splits < kMaxSplits && must_split(ellipse)) {
-      // One cell may be longer than the longest obstacle (few beams, far away): then no cut helps.
-      const std::size_t behind = split_across(grid_, piece.cells, ellipse);
-      if (behind > 0 && behind < piece.cells.size()) {
-        pieces[waiting++] = {piece.cells.first(behind), piece.splits + 1};
-        pieces[waiting++] = {piece.cells.subspan(behind), piece.splits + 1};
-        continue;
-      }
-    }
-    std::uint8_t peak = 0;
-    for (const std::uint32_t cell : piece.cells) {
-      peak = std::max(peak, echo_[cell]);
-    }
-    // A piece without an echo of its own is but the smoothing's fringe of the piece beside it.
-    if (piece.splits == 0 || peak >= options_.threshold) {
-      keep_nearest({ellipse, static_cast<double>(peak)});
-    }
-  }
-}
-
-void Segmenter::keep_nearest(const Found& found) noexcept {
-  const auto nearer = [](const Found& a, const Found& b) {
-    return a.ellipse.nearest_m < b.ellipse.nearest_m;
-  };
-  if (found_count_ == kMaxObstacles) {
-    ++dropped_;
-    if (!nearer(found, found_[0])) {
-      return;
-    }
-    std::pop_heap(found_.begin(), found_.end(), nearer);
-    --found_count_;
-  }
-  found_[found_count_++] = found;
-  std::push_heap(found_.begin(), found_.begin() + found_count_, nearer);
-}
-
-void Segmenter::write(SonarObstacles& out) noexcept {
-  std::sort(found_.begin(), found_.begin() + found_count_, [](const Found& a, const Found& b) {
-    return a.ellipse.nearest_m < b.ellipse.nearest_m;
-  });
-  for (std::uint32_t i = 0; i < found_count_; ++i) {
-    const BlobEllipse& e = found_[i].ellipse;
-    Obstacle& obstacle = out.obstacles[i];
-    obstacle = Obstacle{};
-    obstacle.shape = ObstacleShape::kEllipse;
-    obstacle.centre_x_m = e.centre_x_m;
-    obstacle.centre_y_m = e.centre_y_m;
-    obstacle.semi_axis_first_m = e.first_m;
-    obstacle.semi_axis_second_m = e.second_m;
-    obstacle.angle_rad = std::atan2(e.axis_x, e.axis_y);
-    obstacle.protection_first_m = e.first_m + options_.protection_margin_m;
-    obstacle.protection_second_m = e.second_m + options_.protection_margin_m;
-    obstacle.peak = found_[i].peak;
-  }
-  out.count = found_count_;
-  out.dropped = dropped_;
 }
 
 }  // namespace lodesman

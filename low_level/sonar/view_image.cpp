@@ -80,7 +80,7 @@ std::array<cv::Vec3b, 256> echo_shades() {
 
 void draw_echoes(cv::Mat& image, const cv::Mat& fan, const SonarView& view, const SonarPing& ping) {
   if (ping.beams == 0 || ping.bins == 0 || ping.beams > kMaxBeams || ping.bins > kMaxBins ||
-      !(ping.range_m > 0.0) || !(ping.sector_rad > 0.0)) {
+      !(ping.range_m > 0.0) || !(ping.beam_step_rad > 0.0)) {
     return;
   }
   const std::array<cv::Vec3b, 256> shades = echo_shades();
@@ -92,12 +92,28 @@ void draw_echoes(cv::Mat& image, const cv::Mat& fan, const SonarView& view, cons
       const VehiclePoint p =
           view.to_vehicle({static_cast<std::int16_t>(column), static_cast<std::int16_t>(row)});
       const double bin = p.xy_m.norm() / ping.range_m * ping.bins;
-      const double beam = (std::atan2(p.xy_m.x(), p.xy_m.y()) / ping.sector_rad + 0.5) * ping.beams;
+      const double beam = ping.beam_at(std::atan2(p.xy_m.x(), p.xy_m.y()));
       if (beam >= 0.0 && beam < ping.beams && bin < ping.bins) {
         const std::uint32_t cell =
             static_cast<std::uint32_t>(beam) * ping.bins + static_cast<std::uint32_t>(bin);
         image.at<cv::Vec3b>(row, column) = shades[ping.echo[cell]];
       }
+    }
+  }
+}
+
+// The returns of a profile, as far as they lie in the view.
+void draw_points(cv::Mat& image, const SonarView& view, const SonarPing& ping) {
+  constexpr int kRadiusPx = 2;
+  const cv::Vec3b pale = echo_shades().back();
+  for (std::uint32_t beam = 0; beam < std::min<std::uint32_t>(ping.beams, kMaxBeams); ++beam) {
+    const double range_m = ping.points[beam].range_m;
+    const double bearing_rad = ping.bearing_rad(beam);
+    if (range_m > 0.0 && range_m <= ping.range_m && std::abs(bearing_rad) <= kFanHalfRad) {
+      cv::circle(
+          image,
+          whole_pixel(view, range_m * std::sin(bearing_rad), range_m * std::cos(bearing_rad)),
+          kRadiusPx, cv::Scalar{pale}, cv::FILLED);
     }
   }
 }
@@ -320,7 +336,11 @@ cv::Mat draw(const ViewPicture& picture) {
   cv::Mat image{kViewRows, kViewColumns, CV_8UC3, kOutside};
   image.setTo(kWater, fan);
   if (picture.ping != nullptr) {
-    draw_echoes(image, fan, view, *picture.ping);
+    if (picture.ping->kind == PingKind::kProfile) {
+      draw_points(image, view, *picture.ping);
+    } else {
+      draw_echoes(image, fan, view, *picture.ping);
+    }
   }
   draw_rings(image, view, picture.range_m);
   if (picture.obstacles != nullptr) {

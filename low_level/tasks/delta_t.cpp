@@ -19,6 +19,7 @@ DeltaTTask::DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaT
     : sonar_{sonar},
       options_{std::move(options)},
       segmenter_{options_.segmentation},
+      profile_detector_{options_.segmentation},
       vehicle_state_{board.vehicle_state},
       mission_status_{board.mission_status},
       pings_{writer_of(board, board.sonar_ping, role)},
@@ -62,6 +63,8 @@ void DeltaTTask::publish_what_it_shows(Time now) noexcept {
     if (!see_known_scene(now)) {
       return;
     }
+  } else if (ping_->kind == PingKind::kProfile) {
+    profile_detector_.detect(*ping_, *seen_);
   } else {
     segmenter_.segment(*ping_, *seen_);
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "drivers/hal/devices.h"
+#include "low_level/sonar/profile.h"
 #include "low_level/sonar/protection.h"
 #include "low_level/sonar/segmentation.h"
 #include "low_level/sonar/track_oracle.h"
@@ -48,6 +49,7 @@ class DeltaTTask final : public Task {
   ImagingSonar& sonar_;
   DeltaTOptions options_;
   Segmenter segmenter_;
+  ProfileDetector profile_detector_;
   Reader<VehicleState> vehicle_state_;
   Reader<MissionStatus> mission_status_;
   Writer<SonarPing> pings_;

@@ -82,6 +82,9 @@ enum class DeviceFault : std::uint8_t {
   kNotAPort,      // it is there and is no serial port
   kUnplugged,     // it went while it was used
   kLineFull,      // it takes no more bytes
+  // Of a network.
+  kNobodyListens,  // no program listens at its address
+  kNoWay,          // there is no way to its address
   // Of the conversation.
   kStarting,        // it is being asked who it is, and set
   kNoAnswer,        // it says nothing that could be understood, at no speed
@@ -91,8 +94,9 @@ enum class DeviceFault : std::uint8_t {
   // Of what a sensor says.
   kSelfTestFailed,  // its own test says that it must not be used
   kSelfTestWarning,
-  kFrozen,       // the same to the last bit, though the boat moves
-  kImplausible,  // whole, but it cannot be: by its own clock or its own rates
+  kFrozen,        // the same to the last bit, though the boat moves
+  kImplausible,   // whole, but it cannot be: by its own clock or its own rates
+  kUnusualBeams,  // a sonar's beams lie otherwise than its sector says
   // Of a thruster box.
   kProving,     // its own time-out is being tried
   kWrongMode,   // it is there and obeys nothing: its serial mode is another
@@ -104,9 +108,10 @@ enum class DeviceFault : std::uint8_t {
 [[nodiscard]] constexpr auto enumerators(DeviceFault) noexcept {
   return enumerators_to<DeviceFault::kBoxReset>(
       "none", "no_port", "port_busy", "no_permission", "not_a_port", "unplugged", "line_full",
-      "starting", "no_answer", "wrong_device", "does_not_fit", "setting_refused",
-      "self_test_failed", "self_test_warning", "frozen", "implausible", "proving", "wrong_mode",
-      "no_time_out", "not_neutral", "box_error", "box_reset");
+      "nobody_listens", "no_way", "starting", "no_answer", "wrong_device", "does_not_fit",
+      "setting_refused", "self_test_failed", "self_test_warning", "frozen", "implausible",
+      "unusual_beams", "proving", "wrong_mode", "no_time_out", "not_neutral", "box_error",
+      "box_reset");
 }
 
 // The same in words, for an operator: what it is and, where it is plain, what mends it.
@@ -120,6 +125,9 @@ enum class DeviceFault : std::uint8_t {
     case DeviceFault::kNotAPort: return "what lies at its address is no serial port";
     case DeviceFault::kUnplugged: return "unplugged";
     case DeviceFault::kLineFull: return "it takes no more bytes";
+    case DeviceFault::kNobodyListens:
+      return "no program listens at its address: does the maker's program run there?";
+    case DeviceFault::kNoWay: return "there is no way to its address: is the cable in?";
     case DeviceFault::kStarting: return "it is being asked who it is";
     case DeviceFault::kNoAnswer: return "it says nothing that could be understood";
     case DeviceFault::kWrongDevice: return "another device answers";
@@ -129,6 +137,8 @@ enum class DeviceFault : std::uint8_t {
     case DeviceFault::kSelfTestWarning: return "its own test gives a warning";
     case DeviceFault::kFrozen: return "it says the same again and again";
     case DeviceFault::kImplausible: return "what it says cannot be";
+    case DeviceFault::kUnusualBeams:
+      return "its beams lie otherwise than its sector says: its own bearings are used";
     case DeviceFault::kProving: return "its time-out is being tried";
     case DeviceFault::kWrongMode:
       return "it obeys nothing: set its serial mode to USB Dual Port with the maker's program";

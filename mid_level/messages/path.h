@@ -144,7 +144,7 @@ struct SonarPath {
     return std::tuple{field("request", &P::request),
                       field("frame", &P::frame),
                       field("captured", &P::captured),
-                      field("range_m", &P::range_m).within(0.0, 300.0),
+                      field("range_m", &P::range_m).within(0.0, 350.0),
                       field("reason", &P::reason),
                       field("cost_10_14", &P::cost_10_14),
                       field("expansions", &P::expansions),

@@ -3,12 +3,13 @@
 #include <memory>
 #include <numbers>
 
+#include "tests/conformance/delta_t_bench.h"
 #include "tests/conformance/sensor_suite.h"
 
 namespace lodesman::conformance {
 namespace {
 
-using ImagingSonars = std::tuple<SimSonarBench>;
+using ImagingSonars = std::tuple<SimSonarBench, DeltaTBench>;
 
 constexpr auto kPoll = [](auto& bench) {
   static const auto kPing = std::make_unique<SonarPing>();

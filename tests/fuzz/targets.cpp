@@ -9,6 +9,7 @@ std::span<const Target> targets() {
   static constexpr std::array kTargets{
       Target{"command_line", command_line, ""},
       Target{"configuration", configuration, "deploy/config"},
+      Target{"delta_t", delta_t, "", 100},
       Target{"frames", frames, ""},
       Target{"image", image, ""},
       Target{"maestro", maestro, "", 60},

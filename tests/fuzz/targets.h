@@ -10,6 +10,7 @@ namespace lodesman::fuzz {
 
 void command_line(std::string_view input);    // a line of the command socket
 void configuration(std::string_view input);   // an overlay, as of --config
+void delta_t(std::string_view input);         // what a sonar's program sends, to driver and decode
 void frames(std::string_view input);          // lodesman plan --frames
 void image(std::string_view input);           // an image of lodesman segment
 void maestro(std::string_view input);         // answers of a thruster box to its driver

@@ -93,6 +93,7 @@ const std::vector<Arrow>& arrows() {
       {"drivers/hal", {"mid_level/messages"}},
       {"drivers/stream", {"mid_level/messages"}},
       {"drivers/nav440", {"drivers/hal", "drivers/stream", "mid_level/messages"}},
+      {"drivers/delta_t", {"drivers/hal", "drivers/stream", "mid_level/messages"}},
       {"drivers/maestro", {"drivers/hal", "drivers/stream", "mid_level/messages"}},
       {"drivers/roboclaw", {"drivers/hal", "drivers/stream", "mid_level/messages"}},
       {"low_level/sonar", {"mid_level/geometry", "mid_level/messages"}},

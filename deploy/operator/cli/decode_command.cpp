@@ -14,6 +14,7 @@
 
 #include "deploy/operator/bench/file_check.h"
 #include "deploy/operator/cli/common_options.h"
+#include "deploy/operator/decode/delta_t_lines.h"
 #include "deploy/operator/decode/maestro_lines.h"
 #include "deploy/operator/decode/nav440_lines.h"
 #include "deploy/operator/decode/roboclaw_lines.h"
@@ -29,6 +30,7 @@ struct Protocol {
 };
 constexpr std::array kProtocols{
     Protocol{"nav440", nav440_lines},
+    Protocol{"delta_t", delta_t_lines},
     Protocol{"maestro", maestro_lines},
     Protocol{"roboclaw", roboclaw_lines},
 };

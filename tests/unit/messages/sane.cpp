@@ -129,16 +129,31 @@ TEST_CASE("sane: the echoes of a ping are as many as its beams and bins say",
           "[mid_level][messages]") {
   auto ping = std::make_unique<SonarPing>();
   ping->range_m = 30.0;
-  ping->sector_rad = 2.0;
-  ping->beams = 4;
-  ping->bins = 5;
-  ping->echo_count = 20;
+  ping->make_image(4, 5, 2.0);
   CHECK(sane(*ping));
   ping->echo_count = 21;
   CHECK_FALSE(sane(*ping));
   ping->beams = kMaxBeams;
   ping->bins = kMaxBins + 1;
   ping->echo_count = ping->beams * ping->bins;
+  CHECK_FALSE(sane(*ping));
+}
+
+TEST_CASE("sane: a profile has a point a beam and no echoes", "[mid_level][messages]") {
+  auto ping = std::make_unique<SonarPing>();
+  ping->range_m = 30.0;
+  ping->make_image(4, 5, 2.0);
+  ping->kind = PingKind::kProfile;
+  CHECK_FALSE(sane(*ping));
+  ping->bins = ping->echo_count = 0;
+  CHECK_FALSE(sane(*ping));
+  ping->point_count = 4;
+  CHECK(sane(*ping));
+  ping->points[3].range_m = -1.0;
+  CHECK_FALSE(sane(*ping));
+  ping->points[3].range_m = 12.0;
+  CHECK(sane(*ping));
+  ping->sector_rad = 2.1;  // not what its beams cover
   CHECK_FALSE(sane(*ping));
 }
 

@@ -235,7 +235,7 @@ TEST_CASE("segmentation: any bytes and any size give sound obstacles", "[low_lev
     };
     const auto ping =
         empty_ping(0.1 * pick(3000), round % 3 == 0 ? pick(kMaxBeams) : pick(8), pick(kMaxBins));
-    ping->sector_rad = std::numbers::pi * pick(100) / 100.0;
+    ping->make_image(ping->beams, ping->bins, std::numbers::pi * pick(100) / 100.0);
     const std::uint32_t ceiling = pick(255);
     for (std::uint32_t i = 0; i < ping->echo_count; ++i) {
       ping->echo[i] = static_cast<std::uint8_t>(random() % (ceiling + 1));
@@ -261,7 +261,7 @@ TEST_CASE("segmentation: everything bright is a bounded amount of work and obsta
 TEST_CASE("segmentation: one bin longer than any obstacle may be is kept as it is",
           "[low_level][sonar]") {
   const auto ping = empty_ping(300.0, 2, 40);
-  ping->sector_rad = 3.0;
+  ping->make_image(2, 40, 3.0);
   light(*ping, 255, [](double, double y) { return y > 0.0; });
   SegmentationOptions options = shipped_options();
   options.min_blob_bins = 1;

@@ -25,10 +25,7 @@ inline std::unique_ptr<SonarPing> empty_ping(double range_m = 30.0, std::uint32_
                                              std::uint32_t bins = 500) {
   auto ping = std::make_unique<SonarPing>();
   ping->range_m = range_m;
-  ping->sector_rad = 2.0 * std::numbers::pi / 3.0;
-  ping->beams = beams;
-  ping->bins = bins;
-  ping->echo_count = beams * bins;
+  ping->make_image(beams, bins, 2.0 * std::numbers::pi / 3.0);
   return ping;
 }
 

@@ -66,6 +66,24 @@ TEST_CASE("view picture: shapes that no view can hold are drawn cut off, or not 
   CHECK_FALSE(encode_view(picture, ViewFormat::kPng).empty());
 }
 
+TEST_CASE("view picture: the returns of a profile are drawn, those outside the view are not",
+          "[low_level][sonar]") {
+  const auto empty = std::make_unique<SonarPing>();
+  empty->range_m = 30.0;
+  empty->make_image(120, 0, 2.0 * std::numbers::pi / 3.0);
+  empty->kind = PingKind::kProfile;
+  empty->point_count = 120;
+  const auto ping = std::make_unique<SonarPing>(*empty);
+  ping->points[90].range_m = 15.0;
+  const ViewPicture nothing{.range_m = 30.0, .ping = empty.get()};
+  const ViewPicture something{.range_m = 30.0, .ping = ping.get()};
+  const auto bytes = encode_view(something, ViewFormat::kPng);
+  CHECK_FALSE(bytes.empty());
+  CHECK(bytes != encode_view(nothing, ViewFormat::kPng));
+  ping->points[90].range_m = 31.0;  // not in the view
+  CHECK(encode_view(something, ViewFormat::kPng) == encode_view(nothing, ViewFormat::kPng));
+}
+
 TEST_CASE("view picture: no range and no folder are said, not thrown", "[low_level][sonar]") {
   ViewPicture picture;
   CHECK(encode_view(picture, ViewFormat::kPng).empty());

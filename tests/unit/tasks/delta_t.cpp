@@ -54,6 +54,25 @@ TEST_CASE("delta_t task: a ping is published with what was found in it", "[low_l
   CHECK(all_of(delta_t.tracks).size() == 1);
 }
 
+TEST_CASE("delta_t task: returns of a profile become obstacles, as echoes of an image do",
+          "[low_level][tasks]") {
+  DeltaTOptions options = shipped_options();
+  options.segmentation.profile.min_points = 1;
+  DeltaT delta_t{options};
+  delta_t.sonar.profile_m = 7.0;
+  delta_t.estimate(kStart);
+  delta_t.task.step(kStart);
+  CHECK(all_of(delta_t.pings).size() == 1);
+  const auto seen = all_of(delta_t.obstacles);
+  REQUIRE(seen.size() == 1);
+  const SonarObstacles& newest = seen.front();
+  REQUIRE(newest.count == 2);  // 57 degrees apart
+  for (std::uint32_t i = 0; i < newest.count; ++i) {
+    CHECK(std::hypot(newest.obstacles[i].centre_x_m, newest.obstacles[i].centre_y_m) ==
+          Approx(7.0).margin(0.05));
+  }
+}
+
 TEST_CASE("delta_t task: without a ping nothing is published", "[low_level][tasks]") {
   for (const auto status :
        {ReadStatus::kNothingNew, ReadStatus::kCorrupt, ReadStatus::kDisconnected}) {

@@ -49,15 +49,19 @@ class ScriptedSonar final : public ImagingSonar {
     out.number = ++number;
     out.captured = now;
     out.range_m = 30.0;
-    out.sector_rad = 2.0;
-    out.beams = 2;
-    out.bins = 2;
-    out.echo_count = 4;
+    out.make_image(2, 2, 2.0);
+    if (profile_m > 0.0) {
+      out.kind = PingKind::kProfile;
+      out.bins = out.echo_count = 0;
+      out.point_count = 2;
+      out.points[0].range_m = out.points[1].range_m = profile_m;
+    }
     return ReadStatus::kFresh;
   }
 
   ReadStatus status = ReadStatus::kFresh;
   std::uint64_t number = 0;
+  double profile_m = 0.0;  // where above zero its pings are profiles, of returns at this range
 };
 
 // Notes what it is commanded, and takes it or not.

@@ -90,9 +90,7 @@ TEST_CASE("watch: the newest plan that thrust followed is followed back to its p
   const auto at = [](int ms) { return kStart + milliseconds{ms}; };
   const auto ping = std::make_unique<SonarPing>();
   ping->range_m = 30.0;
-  ping->sector_rad = 2.0;
-  ping->beams = ping->bins = 2;
-  ping->echo_count = 4;
+  ping->make_image(2, 2, 2.0);
   ping->number = 7;
   pings.publish(*ping, at(1));
   ping->number = 8;

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "low_level/sonar/profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mid_level/base/check.h"
+
+namespace lodesman {
+namespace {
+
+constexpr double kStandardDeviations = 3.0;
+constexpr std::uint32_t kBrightest = 255;
+// Into which a range is divided: 3 cm of 30 m.
+constexpr std::uint32_t kBins = kMaxBins;
+
+[[nodiscard]] bool is_profile(const SonarPing& ping) noexcept {
+  return ping.kind == PingKind::kProfile && ping.beams >= 1 && ping.beams <= kMaxBeams &&
+         ping.point_count == ping.beams && std::isfinite(ping.range_m) && ping.range_m > 0.0 &&
+         std::isfinite(ping.first_bearing_rad) && ping.beam_step_rad > 0.0 &&
+         ping.beam_step_rad <= std::numbers::pi;
+}
+
+}  // namespace
+
+ProfileDetector::ProfileDetector(const SegmentationOptions& options)
+    : options_{options}, blobs_{options}, strength_(kMaxBeams) {
+  const ProfileOptions& profile = options.profile;
+  LODESMAN_CHECK(profile.min_points >= 1 && profile.range_noise_m > 0.0);
+  LODESMAN_CHECK(profile.least_incidence_rad > 0.0 &&
+                 profile.least_incidence_rad < std::numbers::pi / 2.0);
+  cells_.reserve(kMaxBeams);
+}
+
+void ProfileDetector::detect(const SonarPing& ping, SonarObstacles& out) noexcept {
+  out.frame = ping.number;
+  out.captured = ping.captured;
+  out.range_m = ping.range_m;
+  blobs_.begin();
+  if (is_profile(ping)) {
+    grid_.set(ping, kBins);
+    // As deep as gives an even spread the variance of the noise.
+    grid_.echo_depth_m =
+        std::max(grid_.bin_depth_m, std::sqrt(12.0) * options_.profile.range_noise_m);
+    for (std::uint32_t beam = 0; beam < ping.beams; ++beam) {
+      strength_[beam] =
+          static_cast<std::uint8_t>(std::min(ping.points[beam].intensity, kBrightest));
+    }
+    take_runs(ping);
+  }
+  blobs_.write(out);
+}
+
+// Returns of beams as far apart as bright bins of an image may be to be joined.
+void ProfileDetector::take_runs(const SonarPing& ping) noexcept {
+  cells_.clear();
+  std::uint32_t last = 0;
+  for (std::uint32_t beam = 0; beam < ping.beams; ++beam) {
+    if (!is_return(ping, beam)) {
+      continue;
+    }
+    if (!cells_.empty() &&
+        (beam - last > options_.join_beams || !is_one_surface(ping, last, beam))) {
+      end_run();
+    }
+    const auto bin = static_cast<std::uint32_t>(ping.points[beam].range_m / ping.range_m * kBins);
+    cells_.push_back(beam * kBins + std::min(bin, kBins - 1));
+    last = beam;
+  }
+  end_run();
+}
+
+void ProfileDetector::end_run() noexcept {
+  if (cells_.size() >= options_.profile.min_points) {
+    blobs_.add(grid_, cells_, {strength_, kBins, 0.0});
+  }
+  cells_.clear();
+}
+
+bool ProfileDetector::is_return(const SonarPing& ping, std::uint32_t beam) const noexcept {
+  const double range_m = ping.points[beam].range_m;
+  return range_m > 0.0 && range_m >= options_.min_range_m && std::isfinite(range_m);
+}
+
+bool ProfileDetector::is_one_surface(const SonarPing& ping, std::uint32_t beam,
+                                     std::uint32_t next) const noexcept {
+  const double here_m = ping.points[beam].range_m;
+  const double there_m = ping.points[next].range_m;
+  const double turn_rad = (next - beam) * ping.beam_step_rad;
+  const double incidence_rad = options_.profile.least_incidence_rad;
+  const double distance_m =
+      std::sqrt(here_m * here_m + there_m * there_m - 2.0 * here_m * there_m * std::cos(turn_rad));
+  // Beams as far apart as that incidence meet no surface together.
+  const double of_surface_m =
+      turn_rad < incidence_rad
+          ? std::min(here_m, there_m) * std::sin(turn_rad) / std::sin(incidence_rad - turn_rad)
+          : 0.0;
+  return distance_m <= of_surface_m + kStandardDeviations * options_.profile.range_noise_m;
+}
+
+}  // namespace lodesman
