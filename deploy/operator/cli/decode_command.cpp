@@ -16,6 +16,7 @@
 #include "deploy/operator/cli/common_options.h"
 #include "deploy/operator/decode/maestro_lines.h"
 #include "deploy/operator/decode/nav440_lines.h"
+#include "deploy/operator/decode/nmea_lines.h"
 #include "deploy/operator/decode/roboclaw_lines.h"
 #include "mid_level/base/startup_error.h"
 
@@ -31,6 +32,7 @@ constexpr std::array kProtocols{
     Protocol{"nav440", nav440_lines},
     Protocol{"maestro", maestro_lines},
     Protocol{"roboclaw", roboclaw_lines},
+    Protocol{"nmea", nmea_lines},
 };
 
 struct DecodeOptions {
