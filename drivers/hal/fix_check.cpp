@@ -32,11 +32,6 @@ constexpr double kMostHdop = 50.0;
 // A metre of either: no receiver comes so close by chance.
 constexpr double kNowhere_deg = 1e-5;
 
-// 1 January 2025; its end is that of nanoseconds in 63 bits, 1024 weeks of which it is far from.
-constexpr std::int64_t kEarliest_ns = 1'735'689'600'000'000'000;
-constexpr std::int64_t kWeek_ns = 604'800'000'000'000;
-constexpr std::int64_t kLatest_ns = kEarliest_ns + 1024 * kWeek_ns;
-
 constexpr std::uint32_t kTenFixes = 0x3FF;
 constexpr int kLively = 8;  // of them
 
@@ -51,10 +46,6 @@ double fix_sigma_m(FixQuality quality, std::optional<double> hdop) noexcept {
 
 bool is_nowhere(double latitude_deg, double longitude_deg) noexcept {
   return std::abs(latitude_deg) < kNowhere_deg && std::abs(longitude_deg) < kNowhere_deg;
-}
-
-bool is_plausible_utc(std::int64_t utc_ns) noexcept {
-  return utc_ns >= kEarliest_ns && utc_ns < kLatest_ns;
 }
 
 bool FrozenPosition::frozen(const PositionFix& fix) noexcept {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every driver of a receiver asks of a fix before it gives it: how accurate it is, whether it
-// is a place at all, whether the date can be, and whether it stands still while the boat moves.
-// Pure functions, and one object a driver on its thread; nothing allocates.
+// is a place at all, whether the date can be (utc.h), and whether it stands still while the boat
+// moves. Pure functions, and one object a driver on its thread; nothing allocates.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
 #include "mid_level/base/time.h"
+#include "mid_level/base/utc.h"
 #include "mid_level/messages/vehicle.h"
 
 namespace lodesman {
@@ -20,10 +21,6 @@ namespace lodesman {
 
 // Latitude and longitude of 0 are what receivers say that have never had a fix.
 [[nodiscard]] bool is_nowhere(double latitude_deg, double longitude_deg) noexcept;
-
-// [ns] since 1970. Whether a boat can sail by this software then: a receiver whose week number has
-// rolled over is 1024 weeks too early.
-[[nodiscard]] bool is_plausible_utc(std::int64_t utc_ns) noexcept;
 
 // Whether a position repeats itself to the last digit while its times go on and the boat moves: by
 // the receiver's own speed where it gives one, else where nearly every fix differed before. At rest

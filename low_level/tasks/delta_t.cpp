@@ -64,6 +64,7 @@ void DeltaTTask::publish_what_it_shows(Time now) noexcept {
     }
   } else {
     segmenter_.segment(*ping_, *seen_);
+    move_to_vehicle(options_.mounting, *seen_);
   }
   if (options_.own_zones) {
     make_own_zones(*options_.own_zones, *seen_);

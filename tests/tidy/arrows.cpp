@@ -128,7 +128,7 @@ const std::vector<Arrow>& arrows() {
       {"deploy/operator/run",
        {"deploy/boat", "deploy/operator/report", "hal_sim/scenario", "mid_level"}},
       {"deploy/operator/watch", {"mid_level"}},
-      {"deploy/operator/doctor", {"deploy/boat", "deploy/operator/watch", "mid_level"}},
+      {"deploy/operator/doctor", {"deploy/boat", "deploy/operator/watch", "drivers", "mid_level"}},
       {"deploy/operator/bench", {"deploy/boat", "low_level/path", "mid_level"}},
       {"deploy/operator/decode", {"drivers", "mid_level"}},
       {"deploy/operator/cli",

@@ -7,6 +7,7 @@
 
 #include "deploy/operator/cli/common_options.h"
 #include "deploy/operator/doctor/diagnosis.h"
+#include "deploy/operator/doctor/gpsd.h"
 #include "deploy/operator/doctor/machine.h"
 #include "deploy/operator/doctor/port_diagnosis.h"
 #include "deploy/operator/doctor/ports.h"
@@ -15,19 +16,27 @@
 namespace lodesman::cli {
 namespace {
 
-// None where the configuration cannot be read, of which the machine's findings tell.
-[[nodiscard]] std::vector<NamedPort> named_ports(const CommonOptions& options) {
+// Of the devices that are named; nothing where the configuration cannot be read, of which the
+// machine's findings tell.
+[[nodiscard]] std::vector<Finding> device_findings(const CommonOptions& options) {
+  DeviceAddresses devices;
+  std::optional<GpsdFacts> gpsd;
   try {
-    return ports_named_in(load_configuration("default", options).devices);
+    devices = load_configuration("default", options).devices;
+    gpsd = measure_gpsd(devices.position);
   } catch (const StartupError&) {
-    return {};
   }
+  std::vector<Finding> findings = judge_ports(measure_ports(ports_named_in(devices)));
+  if (gpsd) {
+    findings.push_back(judge_gpsd(*gpsd));
+  }
+  return findings;
 }
 
 [[nodiscard]] int doctor(const CommonOptions& options) {
   using Json = nlohmann::ordered_json;
   std::vector<Finding> findings = judge(measure_machine(options));
-  for (Finding& finding : judge_ports(measure_ports(named_ports(options)))) {
+  for (Finding& finding : device_findings(options)) {
     findings.push_back(std::move(finding));
   }
   const bool bad = any_bad(findings);
@@ -57,7 +66,7 @@ void add_doctor_command(CLI::App& root, int& exit_status) {
       root.add_subcommand("doctor", "What this machine lacks, with the command that mends it");
   add_common_options(*command, *options);
   command->footer(
-      "Example: lodesman doctor --config boat.toml   # and the serial ports that it names\n\n"
+      "Example: lodesman doctor --config boat.toml   # and the ports and gpsd that it names\n\n"
       "Exit status 4 where something is bad.");
   command->callback([options, &exit_status] { exit_status = doctor(*options); });
 }
