@@ -127,13 +127,12 @@ void gpsd(std::string_view input) {
   listener.pass(std::chrono::seconds{4});  // and the connection is given up
   listener.pass(std::chrono::seconds{4});
   const int before = listener.fixes();
-  for (
-      const char* report :
-      {R"({"class":"TPV","device":"/x","mode":3,"time":"2026-11-21T00:00:01Z","lat":-35.1,"lon":-1})",
-       R"({"class":"TPV","device":"/x","mode":3,"time":"2026-11-21T00:00:02Z","lat":-35.2,"lon":-1})",
-       R"({"class":"TPV","device":"/x","mode":3,"time":"2026-11-21T00:00:03Z","lat":-35.3,"lon":-1})",
-       R"({"class":"TPV","device":"/x","mode":3,"time":"2026-11-21T00:00:04Z","lat":-35.4,"lon":-1})"}) {
-    listener.say(std::string{report} + "\n");
+  for (const char digit : {'1', '2', '3', '4'}) {
+    std::string report = R"({"class":"TPV","device":"/x","mode":3,"time":"2026-11-21T00:00:0)";
+    report += digit;
+    report += R"(Z","lat":-35.)";
+    report += digit;
+    listener.say(report + ",\"lon\":-1}\n");
     listener.pass(std::chrono::seconds{1});
   }
   require(listener.fixes() > before, "a sound fix is lost behind what came before");

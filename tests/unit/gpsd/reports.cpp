@@ -17,9 +17,10 @@ template <class Kind>
 }
 
 TEST_CASE("gpsd reports: TPV", "[gpsd]") {
-  const Tpv tpv = as<Tpv>(
-      R"({"class":"TPV","device":"/dev/pts/3","status":2,"mode":3,"time":"2026-11-21T12:35:00.250Z",)"
-      R"("lat":35.0272,"lon":138.9,"altHAE":52.1,"track":270.0,"speed":0.5,"eph":17.1})");
+  const Tpv tpv =
+      as<Tpv>(R"({"class":"TPV","device":"/dev/pts/3","status":2,"mode":3,)"
+              R"("time":"2026-11-21T12:35:00.250Z",)"
+              R"("lat":35.0272,"lon":138.9,"altHAE":52.1,"track":270.0,"speed":0.5,"eph":17.1})");
   CHECK(tpv.device == "/dev/pts/3");
   CHECK(tpv.mode == 3);
   CHECK(tpv.status == 2);
@@ -55,8 +56,8 @@ TEST_CASE("gpsd reports: the others", "[gpsd]") {
 }
 
 TEST_CASE("gpsd reports: what cannot be is as if it had not been given", "[gpsd]") {
-  const Tpv tpv = as<Tpv>(
-      R"({"class":"TPV","mode":7,"time":"yesterday","lat":91,"lon":-180.1,"speed":-1,"track":400})");
+  const Tpv tpv = as<Tpv>(R"({"class":"TPV","mode":7,"time":"yesterday",)"
+                          R"("lat":91,"lon":-180.1,"speed":-1,"track":400})");
   CHECK(tpv.mode == 0);
   CHECK(!tpv.utc_ns);
   CHECK(!tpv.latitude_deg);
