@@ -56,6 +56,7 @@ struct Library {
       {"GeographicLib/", {"mid_level/base/"}},
       {"boost/interprocess/", {"mid_level/blackboard/"}},
       {"libserialport.h", {"drivers/stream/"}},
+      {"libusb.h", {"deploy/operator/doctor/"}},
       {"boost/asio", {"high_level/mission/", "deploy/operator/", "drivers/", "hal_sim/"}},
       {"spdlog/", {"deploy/boat/"}},
       {"CLI/", {"deploy/"}},

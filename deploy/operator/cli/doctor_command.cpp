@@ -9,6 +9,7 @@
 #include "deploy/operator/doctor/diagnosis.h"
 #include "deploy/operator/doctor/gpsd.h"
 #include "deploy/operator/doctor/machine.h"
+#include "deploy/operator/doctor/maestro_boxes.h"
 #include "deploy/operator/doctor/port_diagnosis.h"
 #include "deploy/operator/doctor/ports.h"
 #include "mid_level/base/startup_error.h"
@@ -16,18 +17,33 @@
 namespace lodesman::cli {
 namespace {
 
-// Of the devices that are named; nothing where the configuration cannot be read, of which the
-// machine's findings tell.
-[[nodiscard]] std::vector<Finding> device_findings(const CommonOptions& options) {
-  DeviceAddresses devices;
-  std::optional<GpsdFacts> gpsd;
+struct Wanted {
+  std::vector<NamedPort> ports;
+  MaestroNeeds box;
+  std::string position;  // its address
+};
+
+// Nothing where the configuration cannot be read, of which the machine's findings tell.
+[[nodiscard]] Wanted wanted_by(const CommonOptions& options) {
   try {
-    devices = load_configuration("default", options).devices;
-    gpsd = measure_gpsd(devices.position);
+    const BoatConfig config = load_configuration("default", options);
+    return {ports_named_in(config.devices),
+            maestro_needs(config.devices.thrusters, config.thrust_shape), config.devices.position};
   } catch (const StartupError&) {
+    return {};
   }
-  std::vector<Finding> findings = judge_ports(measure_ports(ports_named_in(devices)));
-  if (gpsd) {
+}
+
+[[nodiscard]] std::vector<Finding> all_findings(const CommonOptions& options) {
+  std::vector<Finding> findings = judge(measure_machine(options));
+  const auto add = [&findings](const std::vector<Finding>& more) {
+    findings.insert(findings.end(), more.begin(), more.end());
+  };
+  const Wanted wanted = wanted_by(options);
+  const PortsFacts ports = measure_ports(wanted.ports);
+  add(judge_ports(ports));
+  add(judge_maestros(measure_maestros(ports, wanted.box), wanted.box));
+  if (const auto gpsd = measure_gpsd(wanted.position)) {
     findings.push_back(judge_gpsd(*gpsd));
   }
   return findings;
@@ -35,10 +51,7 @@ namespace {
 
 [[nodiscard]] int doctor(const CommonOptions& options) {
   using Json = nlohmann::ordered_json;
-  std::vector<Finding> findings = judge(measure_machine(options));
-  for (Finding& finding : device_findings(options)) {
-    findings.push_back(std::move(finding));
-  }
+  const std::vector<Finding> findings = all_findings(options);
   const bool bad = any_bad(findings);
   if (options.json) {
     Json list = Json::array();
@@ -66,7 +79,7 @@ void add_doctor_command(CLI::App& root, int& exit_status) {
       root.add_subcommand("doctor", "What this machine lacks, with the command that mends it");
   add_common_options(*command, *options);
   command->footer(
-      "Example: lodesman doctor --config boat.toml   # and the ports and gpsd that it names\n\n"
+      "Example: lodesman doctor --config boat.toml   # its ports, thruster box and gpsd\n\n"
       "Exit status 4 where something is bad.");
   command->callback([options, &exit_status] { exit_status = doctor(*options); });
 }

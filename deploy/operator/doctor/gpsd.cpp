@@ -10,6 +10,7 @@
 
 #include "drivers/gpsd/options.h"
 #include "drivers/stream/tcp_port.h"
+#include "mid_level/base/startup_error.h"
 
 namespace lodesman::cli {
 namespace {
@@ -46,12 +47,16 @@ std::optional<GpsdFacts> measure_gpsd(const std::string& address) {
   if (!address.starts_with(kScheme)) {
     return std::nullopt;
   }
-  const std::string rest = address.substr(std::string_view{kScheme}.size());
-  const GpsdOptions options = gpsd_options({rest, gpsd_settings()});
   GpsdFacts facts;
-  facts.place = options.place;
-  facts.wanted = options.device;
-  if (const OpenedPort opened = TcpPort::open(options.place); opened.port) {
+  try {
+    const std::string rest = address.substr(std::string_view{kScheme}.size());
+    const GpsdOptions options = gpsd_options({rest, gpsd_settings()});
+    facts.place = options.place;
+    facts.wanted = options.device;
+  } catch (const StartupError&) {
+    return std::nullopt;
+  }
+  if (const OpenedPort opened = TcpPort::open(facts.place); opened.port) {
     ask(*opened.port, facts);
   }
   return facts;

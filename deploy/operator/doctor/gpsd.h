@@ -24,7 +24,7 @@ struct GpsdFacts {
 
 inline constexpr std::chrono::milliseconds kGpsdPatience{2000};
 
-// Empty where that address is no gpsd's.
+// Empty where that address is no gpsd's, or one that `lodesman check` refuses.
 [[nodiscard]] std::optional<GpsdFacts> measure_gpsd(const std::string& address);
 
 // What it answers to ?DEVICES;, line by line.

@@ -27,13 +27,6 @@ constexpr const char* kInstallRules =
   return {port.named.device, Verdict::kWarn, name_of(port) + what, std::move(remedy)};
 }
 
-// root's and tty's are no groups to join: the device is to be given to another.
-[[nodiscard]] std::string permission_remedy(const std::string& group) {
-  return group == "root" || group == "tty"
-             ? kInstallRules
-             : fmt::format("sudo usermod -aG {} $USER; log in again", group);
-}
-
 void judge_holders(const PortFacts& port, std::vector<Finding>& findings) {
   for (const PortHolder& holder : port.holders) {
     const std::string what = fmt::format(" is held by {} ({})", holder.program, holder.process);
@@ -134,6 +127,15 @@ void judge_sharing(const PortsFacts& facts, std::vector<Finding>& findings) {
 }
 
 }  // namespace
+
+std::string install_rules() { return kInstallRules; }
+
+// root's and tty's are no groups to join: the device is to be given to another.
+std::string permission_remedy(const std::string& group) {
+  return group.empty() || group == "root" || group == "tty"
+             ? install_rules()
+             : fmt::format("sudo usermod -aG {} $USER; log in again", group);
+}
 
 std::vector<Finding> judge_ports(const PortsFacts& facts) {
   std::vector<Finding> findings;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "deploy/boat/configuration.h"
+#include "deploy/operator/doctor/system_files.h"
 
 namespace lodesman::cli {
 
@@ -19,11 +20,6 @@ struct NamedPort {
 };
 // The addresses of the form scheme:/path?settings.
 [[nodiscard]] std::vector<NamedPort> ports_named_in(const DeviceAddresses& devices);
-
-struct PortHolder {
-  std::string program;
-  std::string process;  // its number
-};
 
 struct PortFacts {
   NamedPort named;

@@ -56,6 +56,7 @@ TEST_CASE("doctor: only a gpsd's address is asked, and nobody at a port where no
           "[cli]") {
   CHECK(!measure_gpsd("nmea:/dev/ttyUSB2"));
   CHECK(!measure_gpsd("none"));
+  CHECK(!measure_gpsd("gpsd:localhost:0"));
   const auto facts = measure_gpsd("gpsd:[x]?device=/dev/ttyACM0");
   REQUIRE(facts);
   CHECK(facts->wanted == "/dev/ttyACM0");

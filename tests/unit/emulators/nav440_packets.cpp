@@ -75,6 +75,16 @@ TEST_CASE("nav440 packets: A1 at the ends of its ranges", "[hal_sim][emulators]"
             "CD 80 00 24 0C 83 FF FF FF 72 35"));
 }
 
+TEST_CASE("nav440 packets: a rate is right to the count over the whole range",
+          "[hal_sim][emulators]") {
+  Nav440Values v;
+  v.rate_deg_s = {315.0, -630.0, 629.98077};
+  const Bytes a1 = data_payload(uu_type('A', '1'), v);
+  CHECK(Bytes{a1.begin() + 6, a1.begin() + 12} == hex("40 00 80 00 7F FF"));
+  const Bytes s0 = data_payload(uu_type('S', '0'), v);
+  CHECK(Bytes{s0.begin() + 6, s0.begin() + 12} == hex("40 00 80 00 7F FF"));
+}
+
 TEST_CASE("nav440 packets: A0 and A2", "[hal_sim][emulators]") {
   Nav440Values a0 = at_rest();
   a0.yaw_deg = 90.0;

@@ -211,6 +211,35 @@ TEST_CASE("nav440 unit: older firmware overflows a line that is too slow", "[hal
   CHECK(i16(said_until(unit, at_ms(11'100)).back().bytes, kBitAt) == 0);
 }
 
+// What waits there makes a heading that much older: 0.31 s at most at this speed.
+TEST_CASE("nav440 unit: a line that is too slow finds 256 bytes waiting before one is dropped",
+          "[hal_sim][emulators]") {
+  constexpr double kBytesAMillisecond = 0.96;  // 9600 Bd
+  Nav440UnitOptions options = streaming();
+  options.newer_firmware = false;
+  options.baud_code = 0;
+  Nav440Unit unit{options, at_ms(0), seconds{60}};
+  double waiting = 0.0;
+  double most = 0.0;
+  std::vector<double> at_drops;
+  for (std::int64_t ms = 20; ms <= 4000; ms += 20) {  // 50 packets a second are asked for
+    waiting = std::max(waiting - 20 * kBytesAMillisecond, 0.0);
+    const auto said = said_until(unit, at_ms(ms));
+    if (said.empty()) {
+      at_drops.push_back(waiting);
+    } else {
+      waiting += static_cast<double>(said.at(0).bytes.size());
+    }
+    most = std::max(most, waiting);
+  }
+  CHECK(at_drops.size() > 90);  // about half
+  for (const double bytes : at_drops) {
+    CHECK(bytes > 256.0);
+  }
+  CHECK(most < 256.0 + 39.0 + 1.0);
+  CHECK(most > 256.0);
+}
+
 TEST_CASE("nav440 unit: its last bits flicker, the same way with the same seed",
           "[hal_sim][emulators]") {
   const auto frames = [](std::uint64_t seed) {

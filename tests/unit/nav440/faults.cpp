@@ -169,6 +169,56 @@ TEST_CASE("nav440: headings that jump about are implausible, and say so", "[nav4
   CHECK(bench.fault() == DeviceFault::kNone);
 }
 
+TEST_CASE("nav440: a step within a step is no fault, a fifth packet that follows from nothing is",
+          "[nav440]") {
+  UnitBench bench;
+  REQUIRE(bench.comes_up());
+  bench.run(0.5);
+  int n = 0;
+  // Two packets are too few to be believed, so that four in a row are not.
+  bench.unit.motion = [&n](Time) { return Motion{++n <= 2 ? 60.0 : 120.0, 0.0}; };
+  for (int i = 0; i < 100; ++i) {
+    bench.step();
+    CHECK(bench.fault() == DeviceFault::kNone);
+  }
+  const std::uint64_t before = bench.driver->counts().implausible;
+  CHECK(before == 4);
+  bench.unit.motion = [&n](Time) { return Motion{std::remainder(53.0 * ++n, 360.0), 0.0}; };
+  for (int i = 0; i < 60; ++i) {
+    bench.step();
+    const std::uint64_t refused = bench.driver->counts().implausible - before;
+    CHECK(bench.fault() == (refused < 5 ? DeviceFault::kNone : DeviceFault::kImplausible));
+  }
+  CHECK(bench.fault() == DeviceFault::kImplausible);
+}
+
+TEST_CASE(
+    "nav440: of two packets a second two in a row may go missing, after a third it begins again",
+    "[nav440]") {
+  UnitBench bench;
+  bench.options.rate_hz = 2;
+  REQUIRE(bench.comes_up(8.0));
+  bench.run(3.0);
+  int missing = 2;
+  bench.unit.damage = [&missing](ByteList& frame) {
+    if (missing > 0) {
+      --missing;
+      frame.clear();
+    }
+  };
+  const std::size_t before = bench.samples.size();
+  bench.run(2.0);
+  CHECK(bench.driver->streaming());
+  CHECK(bench.driver->counts().streams == 1);
+  CHECK(bench.samples.size() == before + 2);
+  CHECK(bench.corrupt == 0);
+  missing = 100;
+  bench.run(1.4);
+  CHECK(bench.driver->streaming());
+  bench.run(0.2);
+  CHECK_FALSE(bench.driver->streaming());
+}
+
 TEST_CASE("nav440: H7: bytes that are damaged cost packets and bring no wrong heading",
           "[nav440]") {
   UnitBench bench;

@@ -151,6 +151,27 @@ TEST_CASE("nav440 start-up: another device is refused, and the unit taken when i
   CHECK(bench.fault() == DeviceFault::kNone);
 }
 
+// Damage can make a small letter of a type's first one.
+TEST_CASE("nav440 start-up: one frame of another family does not make another device, two do",
+          "[nav440]") {
+  for (const int foreign : {1, 2}) {
+    INFO(foreign);
+    UnitBench bench;
+    bench.unit.drops_reply = 1;  // so that what it streams is all that is heard
+    int left = foreign;
+    bench.unit.damage = [&left](ByteList& frame) {
+      if (left > 0) {
+        --left;
+        frame = frame_of("a1", ByteList(32, 0x3C));
+      }
+    };
+    bench.run(0.04);
+    bench.unit.drops_reply = 0;
+    CHECK(bench.comes_up(0.9) == (foreign == 1));
+    CHECK(bench.fault() == (foreign == 1 ? DeviceFault::kNone : DeviceFault::kWrongDevice));
+  }
+}
+
 TEST_CASE("nav440 start-up: one that does not say who it is is another device", "[nav440]") {
   UnitBench bench;
   bench.unit.has_identity = false;
@@ -309,6 +330,30 @@ TEST_CASE("nav440 start-up: a unit that comes back with other packets is set at 
   CHECK(bench.samples.back().measured > last + milliseconds{400});
   CHECK(bench.unit.type() == "A1");
   CHECK(bench.driver->counts().streams == 2);
+}
+
+// Within half a second, where its silence would be noticed after one.
+TEST_CASE("nav440 start-up: two packets that nobody asked for cost nothing, a stream of them does",
+          "[nav440]") {
+  UnitBench bench;
+  bench.unit.stored_type = "N1";
+  REQUIRE(bench.comes_up());
+  bench.run(0.5);
+  int others = 2;
+  bench.unit.damage = [&others](ByteList& frame) {
+    if (others > 0) {
+      --others;
+      frame = frame_of("N0", ByteList(32, 0));
+    }
+  };
+  const std::size_t before = bench.samples.size();
+  bench.run(0.5);
+  CHECK(bench.driver->counts().streams == 1);
+  CHECK(bench.samples.size() >= before + 22);
+  bench.unit.power_cycle();
+  REQUIRE(bench.comes_up(0.5));
+  CHECK(bench.driver->counts().streams == 2);
+  CHECK(bench.unit.type() == "A1");
 }
 
 TEST_CASE("nav440 start-up: one that comes back at another rate is set again", "[nav440]") {

@@ -179,6 +179,32 @@ TEST_CASE("T7: after the third loss in a row it is stopped and not ready", "[rob
   CHECK(bench.start());
 }
 
+TEST_CASE("T7: two losses in a row cost a stop, the third one makes a fault", "[roboclaw]") {
+  for (const std::uint64_t losses : {1U, 2U, 3U}) {
+    for (const bool questions_alone : {false, true}) {
+      INFO(losses << (questions_alone ? " answers" : " of all replies"));
+      RoboClawBench bench;
+      REQUIRE(bench.start());
+      bench.damage = [&](Bytes& reply) {
+        if (bench.driver.counts().lost < losses && (reply.size() > 1 || !questions_alone)) {
+          reply.clear();
+        }
+        return 0;
+      };
+      bool rested = false;
+      for (int i = 0; i < 60; ++i) {
+        bench.step(kAhead);
+        rested = rested || bench.driver.state() == State::kResting;
+      }
+      CHECK(bench.driver.counts().lost == losses);
+      CHECK(rested == (losses == 3));
+      CHECK(bench.driver.fault() == (losses == 3 ? DeviceFault::kNoAnswer : DeviceFault::kNone));
+      CHECK((bench.status == CommandStatus::kTaken) == (losses < 3));
+      CHECK(bench.stopped() == (losses == 3));
+    }
+  }
+}
+
 TEST_CASE("T7: questions alone that are never answered are a fault too", "[roboclaw]") {
   RoboClawBench bench;
   REQUIRE(bench.start());
