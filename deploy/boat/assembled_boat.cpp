@@ -106,16 +106,17 @@ struct AssembledBoat::Impl {
       world.emplace(*scenario, load_vessel_parameters(), board, *link, moved_by(config));
       looped.emplace(*world, board, *link, scenario->faults);
     }
-    low.emplace(
-        board, Role::kLow,
-        make_devices({config, board, scenario, link.get(), looped ? &*looped : nullptr, lines}),
-        low_level_options(config, voyage_of(config, scenario)));
+    low.emplace(board, Role::kLow,
+                make_devices({config, board, scenario, link.get(), looped ? &*looped : nullptr,
+                              lines, nav440_fixes}),
+                low_level_options(config, voyage_of(config, scenario)));
   }
 
   std::unique_ptr<SimLink> link;
   std::optional<WorldTask> world;
   std::optional<LoopedWorld> looped;
   std::vector<std::unique_ptr<ByteStream>> lines;
+  Nav440FixRelay nav440_fixes;
   std::optional<LowLevel> low;
 };
 

@@ -111,6 +111,11 @@ void require_addresses(const BoatConfig& config) {
       table.refuse(contract->key, error.what());
     }
   }
+  try {
+    require_shared_position(config.devices);
+  } catch (const StartupError& error) {
+    table.refuse(position_contract().key, error.what());
+  }
 }
 
 void require_drivers(const BoatConfig& config) {

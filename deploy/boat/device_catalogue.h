@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "deploy/boat/configuration.h"
+#include "drivers/nav440/fix_relay.h"
 #include "drivers/stream/byte_stream.h"
 #include "hal_sim/emulators/looped_world.h"
 #include "hal_sim/scenario/scenario.h"
@@ -32,7 +33,7 @@ void require_drivers(const BoatConfig& config);
 // Refuses faults that a device as simulated here cannot have.
 void require_faults(const BoatConfig& config, const Scenario& scenario);
 
-// What the devices are made of. The lines must outlive them.
+// What the devices are made of. Lines and relay must outlive them.
 struct Workshop {
   const BoatConfig& config;
   Blackboard& board;
@@ -40,6 +41,7 @@ struct Workshop {
   SimLink* link = nullptr;
   LoopedWorld* looped = nullptr;
   std::vector<std::unique_ptr<ByteStream>>& lines;
+  Nav440FixRelay& nav440_fixes;  // from the heading's device to the position's
 };
 [[nodiscard]] LowLevelDevices make_devices(const Workshop& workshop);
 

@@ -31,6 +31,9 @@ struct DeviceContract {
 [[nodiscard]] const DeviceContract& position_contract();
 [[nodiscard]] const DeviceContract& thruster_contract();
 
+// Refuses a position from heading's device where that has none to give.
+void require_shared_position(const DeviceAddresses& devices);
+
 // nullptr where there is no driver. Throws StartupError.
 [[nodiscard]] std::unique_ptr<HeadingSensor> make_heading_sensor(const Workshop& shop,
                                                                  const std::string& address);

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/boat/device_watch.h"
 
+#include <fmt/chrono.h>
 #include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <ctime>
 
 namespace lodesman {
 namespace {
 
 // What is ill for less than this is counted and not told.
 constexpr Duration kPatience = std::chrono::milliseconds{400};
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+// What a receiver, a line and a loaded machine may come to.
+constexpr double kClockTolerance_s = 2.0;
 
 [[nodiscard]] bool is_well(DeviceStatus status) noexcept {
   return status == DeviceStatus::kWorking || status == DeviceStatus::kAbsent;
@@ -22,13 +30,15 @@ DeviceWatch::DeviceWatch(const Blackboard& board, const DeviceAddresses& address
                Reader<DeviceHealth>{board.device_health[2]},
                Reader<DeviceHealth>{board.device_health[3]}},
       arming_{board.thrust_status},
-      battery_{board.battery_status} {}
+      battery_{board.battery_status},
+      fixes_{board.position_fix} {}
 
 void DeviceWatch::say_news(Time now) {
   for (std::size_t i = 0; i < kDeviceCount; ++i) {
     look_at(static_cast<DeviceId>(i), now);
   }
   look_at_arming();
+  look_at_clock();
 }
 
 void DeviceWatch::look_at(DeviceId id, Time now) {
@@ -55,6 +65,28 @@ void DeviceWatch::look_at(DeviceId id, Time now) {
     spdlog::warn("{}: {}{}{}", what, to_string(health.status), why[0] != '\0' ? ": " : "", why);
   }
   told = {health.status, health.fault};
+}
+
+// The boat's own times are of no date; this line is what joins them to one.
+void DeviceWatch::look_at_clock() {
+  const auto* fix = fixes_.latest();
+  if (has_told_utc_ || fix == nullptr || fix->value.utc_ns == 0) {
+    return;
+  }
+  has_told_utc_ = true;
+  timespec machine{};
+  clock_gettime(CLOCK_REALTIME, &machine);
+  const std::int64_t machine_ns = machine.tv_sec * kSecond_ns + machine.tv_nsec;
+  const double ahead_s = to_seconds(Duration{machine_ns - fix->value.utc_ns});
+  const auto utc_s = static_cast<std::time_t>(fix->value.utc_ns / kSecond_ns);
+  const double boat_s = to_seconds(fix->value.measured - Time{});
+  const std::string told = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(utc_s));
+  if (std::abs(ahead_s) <= kClockTolerance_s) {
+    spdlog::info("{} by the receiver at {:.3f} s of the boat's clock", told, boat_s);
+  } else {
+    spdlog::warn("{} by the receiver at {:.3f} s of the boat's clock; this machine is {:.0f} s {}",
+                 told, boat_s, std::abs(ahead_s), ahead_s > 0.0 ? "ahead" : "behind");
+  }
 }
 
 void DeviceWatch::look_at_arming() {

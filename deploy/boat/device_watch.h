@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says in the log, once a change, what ails the devices and what becomes of the thrusters' arming.
+// Says in the log, once a change, what ails the devices and what becomes of the thrusters' arming;
+// and once, what time it is by the receiver and by this machine, which may have no clock.
 // The main thread of lodesman-low.
 #pragma once
 
@@ -25,12 +26,15 @@ class DeviceWatch {
 
   void look_at(DeviceId id, Time now);
   void look_at_arming();
+  void look_at_clock();
 
   std::array<std::string, kDeviceCount> addresses_;
   std::array<Reader<DeviceHealth>, kDeviceCount> devices_;
   std::array<Told, kDeviceCount> told_{};
   Reader<ThrustStatus> arming_;
   Reader<BatteryStatus> battery_;
+  Reader<PositionFix> fixes_;
+  bool has_told_utc_ = false;
   ThrustState told_state_ = ThrustState::kDisarmed;
   BatteryLevel told_level_ = BatteryLevel::kUnknown;
 };

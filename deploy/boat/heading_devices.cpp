@@ -59,7 +59,8 @@ std::unique_ptr<HeadingSensor> make_heading_sensor(const Workshop& shop,
     const Nav440Options options = nav440_options(where);
     ByteStream& line =
         real_line(shop, where.place(), options.baud, &shop.board.bell_of(TaskId::kAhrs));
-    return std::make_unique<Nav440>(line, options);
+    const bool gives_places = scheme_of(shop.config.devices.position) == "nav440";
+    return std::make_unique<Nav440>(line, options, gives_places ? &shop.nav440_fixes : nullptr);
   }
   if (scheme == "loop") {
     const DeviceAddress where = looped_ahrs(address);

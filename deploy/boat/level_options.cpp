@@ -2,6 +2,7 @@
 #include "deploy/boat/level_options.h"
 
 #include "drivers/hal/thrust_shape.h"
+#include "mid_level/base/frames.h"
 #include "mid_level/base/startup_error.h"
 
 namespace lodesman {
@@ -46,6 +47,20 @@ ThrustShapeOptions read_thrust_shape(const TomlTable& vehicle) {
   return shape;
 }
 
+namespace {
+
+// Starboard and ahead of the vehicle's origin.
+[[nodiscard]] VehiclePoint read_place_aboard(const TomlTable& mounting, std::string_view key) {
+  const auto place_m = mounting.pair(key, Range::between(-100.0, 100.0));
+  return {{place_m[0], place_m[1]}};
+}
+
+[[nodiscard]] double read_turn(const TomlTable& mounting, std::string_view key) {
+  return to_rad(mounting.number(key, Range::between(-180.0, 180.0)));
+}
+
+}  // namespace
+
 LowLevelOptions read_low_level_options(const TomlTable& configuration) {
   LowLevelOptions options;
   options.delta_t.segmentation = read_segmentation_options(configuration.table("segmentation"));
@@ -56,6 +71,10 @@ LowLevelOptions read_low_level_options(const TomlTable& configuration) {
     options.delta_t.own_zones = own;
   }
   const TomlTable battery = configuration.table("battery");
+  const TomlTable mounting = configuration.table("mounting");
+  options.heading_turn_rad = read_turn(mounting, "heading_deg");
+  const VehiclePoint sonar = read_place_aboard(mounting, "sonar_m");
+  options.delta_t.mounting = {sonar.xy_m.x(), sonar.xy_m.y(), read_turn(mounting, "sonar_deg")};
   options.thruster.battery = {battery.number("low_V", Range::between(0.0, 1000.0)),
                               battery.number("critical_V", Range::between(0.0, 1000.0)),
                               battery.number("hysteresis_V", Range::between(0.0, 10.0)),
@@ -152,6 +171,7 @@ HighLevelOptions read_high_level_options(const TomlTable& configuration, const S
   options.estimator.surge_lag = estimator.duration("surge_lag_s", Range::between(0.0, 100.0));
   options.estimator.current_time =
       estimator.duration("current_time_s", Range::between(0.0, 1000.0));
+  options.estimator.antenna = read_place_aboard(configuration.table("mounting"), "antenna_m");
   options.estimator.gps_correction = estimator.number("gps_correction", Range::above(0.0, 1.0));
   return options;
 }

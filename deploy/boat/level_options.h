@@ -11,12 +11,14 @@ namespace lodesman {
 
 // What the drivers of real thruster boxes make of a command, from section [vehicle].
 [[nodiscard]] ThrustShapeOptions read_thrust_shape(const TomlTable& vehicle);
-// Reads [segmentation], [zones], [battery] and [tracks]; the scene comes from elsewhere.
+// Reads [segmentation], [zones], [mounting], [battery] and [tracks]; the scene comes from
+// elsewhere.
 [[nodiscard]] LowLevelOptions read_low_level_options(const TomlTable& configuration);
 // The table [segmentation] alone.
 [[nodiscard]] SegmentationOptions read_segmentation_options(const TomlTable& table);
 
-// Reads [planner], [zones], [pilot], [vehicle], [progress], [guidance], [control] and [estimator];
+// Reads [planner], [zones], [pilot], [vehicle], [progress], [guidance], [control], [mounting] and
+// [estimator];
 // position source, start and origin come from elsewhere. `speeds`: the boat's own.
 [[nodiscard]] HighLevelOptions read_high_level_options(const TomlTable& configuration,
                                                        const SpeedTable& speeds);

@@ -93,4 +93,9 @@ std::string DeviceAddress::word(std::string_view setting, std::string_view other
   return found->second;
 }
 
+std::string DeviceAddress::text(std::string_view setting, std::string_view otherwise) const {
+  const auto found = values_.find(setting);
+  return found == values_.end() ? std::string{otherwise} : found->second;
+}
+
 }  // namespace lodesman

@@ -26,6 +26,8 @@ class DeviceAddress {
                               double most) const;
   [[nodiscard]] std::string word(std::string_view setting, std::string_view otherwise,
                                  const std::vector<std::string_view>& words) const;
+  // Any text.
+  [[nodiscard]] std::string text(std::string_view setting, std::string_view otherwise) const;
 
  private:
   std::string place_;

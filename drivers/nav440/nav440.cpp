@@ -29,14 +29,21 @@ constexpr int kImplausibleWeight = 4;
 
 }  // namespace
 
-Nav440::Nav440(ByteStream& stream, Nav440Options options)
+Nav440::Nav440(ByteStream& stream, Nav440Options options, Nav440FixRelay* fixes)
     : stream_{stream},
       options_{(check_nav440_options(options), options)},
       start_up_{stream, options_},
       plausibility_{options_.rate_hz},
-      frozen_watch_{options_.rate_hz} {}
+      frozen_watch_{options_.rate_hz},
+      fix_maker_{fixes} {}
 
 Reading<Attitude> Nav440::poll(Time now) noexcept {
+  const Reading<Attitude> reading = poll_unit(now);
+  fix_maker_.tell(connection_ != 0, fault());
+  return reading;
+}
+
+Reading<Attitude> Nav440::poll_unit(Time now) noexcept {
   look_at_connection(now);
   if (connection_ == 0) {
     return {
@@ -151,10 +158,10 @@ void Nav440::take(const Nav440Frame& frame) noexcept {
     refuse(counts_.frozen);
     return;
   }
-  judge(*packet, arrived_ - on_the_line(frame) - options_.latency);
+  judge(frame, *packet, arrived_ - on_the_line(frame) - options_.latency);
 }
 
-void Nav440::judge(const HeadingPacket& packet, Time arrived) noexcept {
+void Nav440::judge(const Nav440Frame& frame, const HeadingPacket& packet, Time arrived) noexcept {
   const Plausibility::Judged judged = plausibility_.judge(packet, arrived);
   if (judged.verdict != Plausibility::Verdict::kBelieved) {
     ++implausible_in_a_row_;
@@ -178,6 +185,7 @@ void Nav440::judge(const HeadingPacket& packet, Time arrived) noexcept {
     return;
   }
   stamped_ = judged.measured;
+  fix_maker_.take(frame.type, frame.payload, packet.bit, judged.measured);
   const double declination_rad = packet.magnetic ? options_.declination_rad : 0.0;
   ready_ = Attitude{judged.measured, wrap_to_pi(packet.angles.yaw_rad + declination_rad),
                     packet.rate_rad_s[2]};

@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "drivers/hal/devices.h"
+#include "drivers/nav440/fix_maker.h"
 #include "drivers/nav440/framing.h"
 #include "drivers/nav440/frozen_watch.h"
 #include "drivers/nav440/options.h"
@@ -37,8 +38,9 @@ struct Nav440Counts {
 
 class Nav440 final : public HeadingSensor {
  public:
-  // Throws StartupError where the options do not fit each other.
-  Nav440(ByteStream& stream, Nav440Options options);
+  // fixes: where the places of N0 and N1 go, for a Nav440Position; nullptr: nobody wants them. It
+  // must outlive the driver. Throws StartupError where the options do not fit each other.
+  Nav440(ByteStream& stream, Nav440Options options, Nav440FixRelay* fixes = nullptr);
 
   [[nodiscard]] Reading<Attitude> poll(Time now) noexcept override;
   [[nodiscard]] DeviceFault fault() const noexcept override;
@@ -53,13 +55,14 @@ class Nav440 final : public HeadingSensor {
   [[nodiscard]] nav440::PacketType packet() const noexcept { return start_up_.packet(); }
 
  private:
+  [[nodiscard]] Reading<Attitude> poll_unit(Time now) noexcept;
   void look_at_connection(Time now) noexcept;
   void read_on(Time now) noexcept;
   void hear(const Nav440Frame& frame, Time now) noexcept;
   void begin_stream() noexcept;
   void take(const Nav440Frame& frame) noexcept;
   void refuse(std::uint64_t& count) noexcept;
-  void judge(const nav440::HeadingPacket& packet, Time arrived) noexcept;
+  void judge(const Nav440Frame& frame, const nav440::HeadingPacket& packet, Time arrived) noexcept;
   [[nodiscard]] Duration on_the_line(const Nav440Frame& frame) const noexcept;
   [[nodiscard]] Duration silence_limit() const noexcept;
 
@@ -69,6 +72,7 @@ class Nav440 final : public HeadingSensor {
   nav440::StartUp start_up_;
   nav440::Plausibility plausibility_;
   nav440::FrozenWatch frozen_watch_;
+  nav440::FixMaker fix_maker_;
   std::uint64_t connection_ = 0;
   std::uint64_t stream_seen_ = 0;  // the start-up's count of them
   Time polled_{};

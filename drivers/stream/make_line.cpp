@@ -5,6 +5,7 @@
 
 #include "drivers/stream/reconnecting_line.h"
 #include "drivers/stream/serial_port.h"
+#include "drivers/stream/tcp_port.h"
 #include "drivers/stream/termios_port.h"
 #include "drivers/stream/tty.h"
 
@@ -24,6 +25,14 @@ OpenedPort open_port(const std::string& path, int baud) {
 std::unique_ptr<ByteStream> make_line(const std::string& path, int baud,
                                       std::function<void()> on_bytes) {
   return std::make_unique<ReconnectingLine>(path, baud, open_port, std::move(on_bytes));
+}
+
+std::unique_ptr<ByteStream> make_tcp_line(const std::string& place,
+                                          std::function<void()> on_bytes) {
+  constexpr int kNoSpeed = 0;
+  return std::make_unique<ReconnectingLine>(
+      place, kNoSpeed, [](const std::string& where, int /*baud*/) { return TcpPort::open(where); },
+      std::move(on_bytes));
 }
 
 }  // namespace lodesman

@@ -21,4 +21,8 @@ namespace lodesman {
 [[nodiscard]] std::unique_ptr<ByteStream> make_line(const std::string& path, int baud,
                                                     std::function<void()> on_bytes = {});
 
+// The same to a server by TCP; place: "host:port".
+[[nodiscard]] std::unique_ptr<ByteStream> make_tcp_line(const std::string& place,
+                                                        std::function<void()> on_bytes = {});
+
 }  // namespace lodesman

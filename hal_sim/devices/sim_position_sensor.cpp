@@ -38,6 +38,7 @@ Reading<PositionFix> SimPositionSensor::poll(Time now) noexcept {
   fix.latitude_deg = as_sent_deg(point.latitude_deg);
   fix.longitude_deg = as_sent_deg(point.longitude_deg);
   fix.sigma_m = sigma_m_;
+  fix.source = FixSource::kSimulated;
   return {ReadStatus::kFresh, fix};
 }
 

@@ -78,7 +78,8 @@ bool EstimatorTask::update_position(Time now, Heading heading, int surge_ref) no
   if (fix->sequence != used_fix_) {
     used_fix_ = fix->sequence;
     const GeoPoint geodetic{fix->value.latitude_deg, fix->value.longitude_deg};
-    const WorldPoint at = local_frame_.to_world(geodetic);
+    const VehiclePose antenna{local_frame_.to_world(geodetic), heading};
+    const WorldPoint at = antenna.to_world({-options_.antenna.xy_m});
     dead_reckoning_.correct(at, has_fix_ ? options_.gps_correction : 1.0);
     has_fix_ = true;
   }

@@ -22,6 +22,7 @@ struct EstimatorOptions {
   double gps_correction = 0.0;  // [-] (0, 1] share of the way to each fix
   WorldPoint start;             // where dead reckoning starts
   GeoPoint origin;              // of the world frame
+  VehiclePoint antenna;         // of the receiver
 };
 
 class EstimatorTask final : public Task {

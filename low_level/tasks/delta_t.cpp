@@ -67,6 +67,7 @@ void DeltaTTask::publish_what_it_shows(Time now) noexcept {
     profile_detector_.detect(*ping_, *seen_);
   } else {
     segmenter_.segment(*ping_, *seen_);
+    move_to_vehicle(options_.mounting, *seen_);
   }
   if (options_.own_zones) {
     make_own_zones(*options_.own_zones, *seen_);

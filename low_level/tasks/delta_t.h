@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "drivers/hal/devices.h"
+#include "low_level/sonar/mounting.h"
 #include "low_level/sonar/profile.h"
 #include "low_level/sonar/protection.h"
 #include "low_level/sonar/segmentation.h"
@@ -23,6 +24,7 @@ struct DeltaTOptions {
   SegmentationOptions segmentation{};
   std::optional<OwnZones> own_zones;  // empty: the protection zones that came with the obstacles
   TrackOracleOptions track_oracle{};
+  SonarMounting mounting{};  // of the head; a known scene is drawn round the vehicle itself
   // The scenario's obstacles, for the known-obstacle source; empty: obstacles come from echoes.
   std::optional<std::vector<MovingObstacle>> known_scene;
 };

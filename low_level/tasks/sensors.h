@@ -11,8 +11,10 @@ namespace lodesman {
 
 class AhrsTask final : public Task {
  public:
-  AhrsTask(Blackboard& board, Role role, HeadingSensor& sensor)
+  // turn_rad: [-pi, pi] clockwise, of the sensor's own ahead from the vehicle's.
+  AhrsTask(Blackboard& board, Role role, HeadingSensor& sensor, double turn_rad = 0.0)
       : sensor_{sensor},
+        turn_rad_{turn_rad},
         attitudes_{writer_of(board, board.attitude, role)},
         device_{board, role, DeviceId::kHeading, max_age::kAttitude} {}
   void step(Time now) noexcept override;
@@ -20,6 +22,7 @@ class AhrsTask final : public Task {
 
  private:
   HeadingSensor& sensor_;
+  double turn_rad_;
   Writer<Attitude> attitudes_;
   DeviceReport device_;
 };

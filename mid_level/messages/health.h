@@ -104,14 +104,18 @@ enum class DeviceFault : std::uint8_t {
   kNotNeutral,  // it is not neutral where it has to be
   kBoxError,    // it reports errors again and again
   kBoxReset,    // it has forgotten what it was told
+  // Of a receiver.
+  kNoService,  // nothing listens at its address
+  kNoFix,      // it says that it has none
+  kWrongDate,  // its date cannot be; its position is used, its date is not
 };
 [[nodiscard]] constexpr auto enumerators(DeviceFault) noexcept {
-  return enumerators_to<DeviceFault::kBoxReset>(
+  return enumerators_to<DeviceFault::kWrongDate>(
       "none", "no_port", "port_busy", "no_permission", "not_a_port", "unplugged", "line_full",
       "nobody_listens", "no_way", "starting", "no_answer", "wrong_device", "does_not_fit",
       "setting_refused", "self_test_failed", "self_test_warning", "frozen", "implausible",
       "unusual_beams", "proving", "wrong_mode", "no_time_out", "not_neutral", "box_error",
-      "box_reset");
+      "box_reset", "no_service", "no_fix", "wrong_date");
 }
 
 // The same in words, for an operator: what it is and, where it is plain, what mends it.
@@ -148,6 +152,9 @@ enum class DeviceFault : std::uint8_t {
       return "it is not neutral after its time-out: set its error action to go to 1500 us";
     case DeviceFault::kBoxError: return "it reports errors again and again";
     case DeviceFault::kBoxReset: return "it has forgotten what it was told";
+    case DeviceFault::kNoService: return "nothing listens at its address: is gpsd running?";
+    case DeviceFault::kNoFix: return "it has no fix: has its antenna the sky above it?";
+    case DeviceFault::kWrongDate: return "its date cannot be, and is not used";
   }
   return "";
 }

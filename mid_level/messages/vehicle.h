@@ -26,12 +26,39 @@ struct Attitude {
   }
 };
 
-// Written by the position task at the receiver's rate (1-10 Hz); read by the estimator.
+// How a receiver came by a fix, by its own word.
+enum class FixQuality : std::uint8_t {
+  kUnknown,       // it does not say
+  kSingle,        // of the satellites alone
+  kDifferential,  // corrected
+  kRtkFloat,      // by carrier phases, their whole numbers not settled
+  kRtkFixed,      // settled
+};
+[[nodiscard]] constexpr auto enumerators(FixQuality) noexcept {
+  return enumerators_to<FixQuality::kRtkFixed>("unknown", "single", "differential", "rtk_float",
+                                               "rtk_fixed");
+}
+
+// Who says it.
+enum class FixSource : std::uint8_t { kUnknown, kSimulated, kNmea, kGpsd, kNav440 };
+[[nodiscard]] constexpr auto enumerators(FixSource) noexcept {
+  return enumerators_to<FixSource::kNav440>("unknown", "simulated", "nmea", "gpsd", "nav440");
+}
+
+// Written by the position task at the receiver's rate (1-10 Hz); read by the estimator, and by
+// programs that say what time it is.
 struct PositionFix {
-  Time measured{};             // [ns] when the receiver fixed it
-  double latitude_deg = 0.0;   // [deg] [-90, 90] WGS-84
+  Time measured{};             // [ns] when the receiver fixed it, by our clock
+  double latitude_deg = 0.0;   // [deg] [-90, 90] WGS-84, of the antenna
   double longitude_deg = 0.0;  // [deg] [-180, 180]
   double sigma_m = 0.0;        // [m] [0, 1e5] one standard deviation, horizontal
+  FixQuality quality = FixQuality::kUnknown;
+  FixSource source = FixSource::kUnknown;
+  std::int64_t utc_ns = 0;  // [ns] since 1970, of the fix by the receiver; 0: not known
+  double speed_m_s = 0.0;   // [m/s] [0, 1000] over ground, where has_speed
+  double course_rad = 0.0;  // [rad] [-pi, pi] over ground, from true north, where has_course
+  bool has_speed = false;
+  bool has_course = false;
 
   [[nodiscard]] Time measured_at() const noexcept { return measured; }
 
@@ -40,7 +67,14 @@ struct PositionFix {
     return std::tuple{field("measured", &P::measured),
                       field("latitude_deg", &P::latitude_deg).within(-90.0, 90.0),
                       field("longitude_deg", &P::longitude_deg).within(-180.0, 180.0),
-                      field("sigma_m", &P::sigma_m).within(0.0, 1e5)};
+                      field("sigma_m", &P::sigma_m).within(0.0, 1e5),
+                      field("quality", &P::quality),
+                      field("source", &P::source),
+                      field("utc_ns", &P::utc_ns).within(0.0, 4e18),
+                      field("speed_m_s", &P::speed_m_s).within(0.0, 1000.0),
+                      field("course_rad", &P::course_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
+                      field("has_speed", &P::has_speed),
+                      field("has_course", &P::has_course)};
   }
 };
 

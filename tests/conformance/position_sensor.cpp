@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "tests/conformance/receiver_bench.h"
 #include "tests/conformance/sensor_suite.h"
 
 namespace lodesman::conformance {
 namespace {
 
-using PositionSensors = std::tuple<SimPositionBench>;
+using PositionSensors = std::tuple<SimPositionBench, NmeaBench, GpsdBench>;
 
 constexpr auto kPoll = [](auto& bench) {
   const auto reading = bench.device().poll(bench.now());

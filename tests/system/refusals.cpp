@@ -318,7 +318,18 @@ TEST_CASE("refusals: devices that do not go together are refused by both program
        "^c.toml:2: devices.position: is none: the position's source must be dead_reckoning"},
       {"[devices]\nposition = \"none\"\n",
        "^c.toml:2: devices.position: is none: the position's source must be dead_reckoning"},
-      {real + estimate, "^c.toml:3: devices.position: there is no driver"},
+      {"[devices]\nposition = \"nav440:/dev/none\"\n",
+       "^c.toml:2: devices.position: must be nav440:@heading"},
+      {"[devices]\nposition = \"nav440:@heading\"\n",
+       "^c.toml:2: devices.position: needs devices.heading to be a nav440:"},
+      {"[devices]\nheading = \"nav440:/dev/none\"\nposition = \"nav440:@heading\"\n",
+       "^c.toml:3: devices.position: needs packet=N1 or packet=N0"},
+      {"[devices]\nposition = \"gpsd:localhost:0\"\n",
+       "^c.toml:2: devices.position: the port of gpsd must be from 1 to 65535"},
+      {"[devices]\nposition = \"nmea:/dev/none?baud=9601\"\n",
+       "^c.toml:2: devices.position: setting baud"},
+      {"[mounting]\nantenna_m = [0.0, 101.0]\n", "^c.toml:2: mounting.antenna_m: "},
+      {"[mounting]\nsonar_deg = 181.0\n", "^c.toml:2: mounting.sonar_deg: "},
   };
   for (const Row& row : rows) {
     for (const char* program : {LODESMAN_LOW_PROGRAM, LODESMAN_HIGH_PROGRAM}) {

@@ -94,6 +94,8 @@ const std::vector<Arrow>& arrows() {
       {"drivers/stream", {"mid_level/messages"}},
       {"drivers/nav440", {"drivers/hal", "drivers/stream", "mid_level/messages"}},
       {"drivers/delta_t", {"drivers/hal", "drivers/stream", "mid_level/messages"}},
+      {"drivers/nmea", {"drivers/hal", "drivers/stream", "mid_level/messages"}},
+      {"drivers/gpsd", {"drivers/hal", "drivers/stream", "mid_level/messages"}},
       {"drivers/maestro", {"drivers/hal", "drivers/stream", "mid_level/messages"}},
       {"drivers/roboclaw", {"drivers/hal", "drivers/stream", "mid_level/messages"}},
       {"low_level/sonar", {"mid_level/geometry", "mid_level/messages"}},

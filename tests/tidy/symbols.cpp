@@ -29,7 +29,8 @@ const std::vector<SymbolRule>& symbol_rules() {
        {""},
        {"mid_level/base/clock.cpp", "mid_level/blackboard/bell.cpp",
         "mid_level/blackboard/segment.cpp", "drivers/stream/reconnecting_line.cpp",
-        "drivers/stream/udp_socket.cpp", "hal_sim/emulators/device_port.cpp", kAsio, kOperator}},
+        "drivers/stream/tcp_port.cpp", "drivers/stream/udp_socket.cpp",
+        "hal_sim/emulators/device_port.cpp", kAsio, kOperator}},
       {"locks",
        R"(pthread_(mutex|rwlock|cond|spin|barrier|once)\w*|sem_\w+|__cxa_guard_acquire)"
        R"(|std::(condition_variable|__once|mutex|shared_mutex|recursive_mutex)\b.*)",

@@ -17,6 +17,7 @@
 #include "deploy/operator/decode/delta_t_lines.h"
 #include "deploy/operator/decode/maestro_lines.h"
 #include "deploy/operator/decode/nav440_lines.h"
+#include "deploy/operator/decode/nmea_lines.h"
 #include "deploy/operator/decode/roboclaw_lines.h"
 #include "mid_level/base/startup_error.h"
 
@@ -33,6 +34,7 @@ constexpr std::array kProtocols{
     Protocol{"delta_t", delta_t_lines},
     Protocol{"maestro", maestro_lines},
     Protocol{"roboclaw", roboclaw_lines},
+    Protocol{"nmea", nmea_lines},
 };
 
 struct DecodeOptions {

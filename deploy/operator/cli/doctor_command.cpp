@@ -7,6 +7,7 @@
 
 #include "deploy/operator/cli/common_options.h"
 #include "deploy/operator/doctor/diagnosis.h"
+#include "deploy/operator/doctor/gpsd.h"
 #include "deploy/operator/doctor/machine.h"
 #include "deploy/operator/doctor/maestro_boxes.h"
 #include "deploy/operator/doctor/port_diagnosis.h"
@@ -19,6 +20,7 @@ namespace {
 struct Wanted {
   std::vector<NamedPort> ports;
   MaestroNeeds box;
+  std::string position;  // its address
 };
 
 // Nothing where the configuration cannot be read, of which the machine's findings tell.
@@ -26,7 +28,7 @@ struct Wanted {
   try {
     const BoatConfig config = load_configuration("default", options);
     return {ports_named_in(config.devices),
-            maestro_needs(config.devices.thrusters, config.thrust_shape)};
+            maestro_needs(config.devices.thrusters, config.thrust_shape), config.devices.position};
   } catch (const StartupError&) {
     return {};
   }
@@ -41,6 +43,9 @@ struct Wanted {
   const PortsFacts ports = measure_ports(wanted.ports);
   add(judge_ports(ports));
   add(judge_maestros(measure_maestros(ports, wanted.box), wanted.box));
+  if (const auto gpsd = measure_gpsd(wanted.position)) {
+    findings.push_back(judge_gpsd(*gpsd));
+  }
   return findings;
 }
 
@@ -74,7 +79,7 @@ void add_doctor_command(CLI::App& root, int& exit_status) {
       root.add_subcommand("doctor", "What this machine lacks, with the command that mends it");
   add_common_options(*command, *options);
   command->footer(
-      "Example: lodesman doctor --config boat.toml   # its serial ports and thruster box\n\n"
+      "Example: lodesman doctor --config boat.toml   # its ports, thruster box and gpsd\n\n"
       "Exit status 4 where something is bad.");
   command->callback([options, &exit_status] { exit_status = doctor(*options); });
 }

@@ -30,6 +30,7 @@
 #include "deploy/operator/run/run_directory.h"
 #include "deploy/operator/watch/find_segment.h"
 #include "hal_sim/campaign/encounter.h"
+#include "mid_level/base/utc.h"
 
 namespace lodesman::cli {
 namespace {
@@ -64,8 +65,11 @@ struct BenchOptions {
     return make_named_directory(options.out, options.force);
   }
   const std::time_t now = std::time(nullptr);
-  return make_new_directory(fs::path{"runs"} /
-                            fmt::format("{:%Y%m%dT%H%M%SZ}-{}", fmt::gmtime(now), scenario.name));
+  // Of a machine without a clock all runs would be of one day in the past.
+  const bool is_known = is_plausible_utc(std::int64_t{now} * 1'000'000'000);
+  const std::string when =
+      is_known ? fmt::format("{:%Y%m%dT%H%M%SZ}", fmt::gmtime(now)) : "no-clock";
+  return make_new_directory(fs::path{"runs"} / (when + "-" + scenario.name));
 }
 
 [[nodiscard]] std::string read_text(const fs::path& file) {

@@ -18,9 +18,10 @@ struct Yard {
   BoatConfig config = load_configuration("default", {});
   std::unique_ptr<Blackboard> board = std::make_unique<Blackboard>();
   std::vector<std::unique_ptr<ByteStream>> lines;
+  Nav440FixRelay fixes;
 
   [[nodiscard]] std::unique_ptr<ImagingSonar> sonar(const std::string& address) {
-    const Workshop shop{config, *board, nullptr, nullptr, nullptr, lines};
+    const Workshop shop{config, *board, nullptr, nullptr, nullptr, lines, fixes};
     return make_sonar(shop, address);
   }
 };

@@ -202,6 +202,14 @@ ByteList ScriptedUnit::payload(Time measured) {
     put(bytes, flicker(), 2);
     put(bytes, -3277 + flicker(), 2);
   }
+  if (is_true) {
+    const Whereabouts at = place(measured);
+    put(bytes, std::llround(at.north_m_s * 128.0), 2);
+    put(bytes, std::llround(at.east_m_s * 128.0), 2);
+    put(bytes, 0, 2);
+    put(bytes, std::llround(at.longitude_deg * 4294967296.0 / 360.0), 4);
+    put(bytes, std::llround(at.latitude_deg * 4294967296.0 / 360.0), 4);
+  }
   const bool whole = type_[1] == '1';
   const std::size_t size = type_ == "N1" ? 42U : type_ == "A0" ? 30U : 32U;
   bytes.resize(size - 2 - (whole ? 4U : 2U), 0);
@@ -246,7 +254,7 @@ double worst_error_deg(const UnitBench& bench, std::size_t from) {
 
 void UnitBench::step() {
   if (!driver) {
-    driver = std::make_unique<Nav440>(line->near_end(), options);
+    driver = std::make_unique<Nav440>(line->near_end(), options, &fixes);
   }
   unit.go_on_to(now);
   for (int i = 0; i < 64; ++i) {

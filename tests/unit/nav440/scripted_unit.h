@@ -22,6 +22,14 @@ struct Motion {
   double yaw_rate_deg_s = 0.0;
 };
 
+// Where its receiver puts it; as it stands, what a unit says that never had a fix.
+struct Whereabouts {
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+  double north_m_s = 0.0;
+  double east_m_s = 0.0;
+};
+
 class ScriptedUnit {
  public:
   explicit ScriptedUnit(MemoryLine& line) : line_{line} {}
@@ -38,6 +46,7 @@ class ScriptedUnit {
   // What it does.
   bool has_speed = true;  // bytes take their time, and the wrong speed garbles them
   std::function<Motion(Time)> motion = [](Time) { return Motion{}; };
+  std::function<Whereabouts(Time)> place = [](Time) { return Whereabouts{}; };  // of N0 and N1
   bool flickers = true;          // as real ones do, in accelerations and rates
   double declination_deg = 0.0;  // where it is: yaw of A0 and A1 is magnetic
   std::uint16_t bit = 0;
@@ -97,6 +106,7 @@ struct UnitBench {
   explicit UnitBench(Nav440Options wanted = {}) : options{wanted} {}
 
   Nav440Options options;
+  Nav440FixRelay fixes;
   std::unique_ptr<MemoryLine> line = std::make_unique<MemoryLine>();
   ScriptedUnit unit{*line};
   std::unique_ptr<Nav440> driver;  // made with the first step

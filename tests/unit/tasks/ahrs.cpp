@@ -7,9 +7,12 @@ namespace lodesman::testing {
 namespace {
 
 struct Ahrs {
+  explicit Ahrs(double turned_rad = 0.0) : turn_rad{turned_rad} {}
+
   std::unique_ptr<Blackboard> board = std::make_unique<Blackboard>();
   ScriptedHeading sensor;
-  AhrsTask task{*board, Role::kLow, sensor};
+  double turn_rad = 0.0;
+  AhrsTask task{*board, Role::kLow, sensor, turn_rad};
   Reader<Attitude> attitudes{board->attitude};
 
   [[nodiscard]] std::vector<double> headings_after_step() {
@@ -55,6 +58,19 @@ TEST_CASE("ahrs task: a sample that is no heading is as if it had not come", "[l
   ahrs.sensor.give(Attitude{kStart, 0.1, kNaN});
   ahrs.sensor.give(heading(0.4));
   CHECK(ahrs.headings_after_step() == Headings{0.4});
+}
+
+TEST_CASE("ahrs task: a sensor that is turned to starboard reads that much too much",
+          "[low_level][tasks]") {
+  Ahrs ahrs{0.1};
+  ahrs.sensor.give(heading(0.5));
+  ahrs.sensor.give(heading(-3.1));
+  ahrs.sensor.give(heading(0.0));
+  const Headings vehicle = ahrs.headings_after_step();
+  REQUIRE(vehicle.size() == 3);
+  CHECK(vehicle[0] == Approx(0.4));
+  CHECK(vehicle[1] == Approx(3.0831853));  // over south
+  CHECK(vehicle[2] == Approx(-0.1));
 }
 
 TEST_CASE("ahrs task: one step takes no end of samples", "[low_level][tasks]") {

@@ -20,7 +20,8 @@ namespace {
 }
 
 struct Estimator {
-  explicit Estimator(PositionSource source) : task{*board, Role::kHigh, options_for(source)} {}
+  explicit Estimator(PositionSource source) : Estimator{options_for(source)} {}
+  explicit Estimator(const EstimatorOptions& options) : task{*board, Role::kHigh, options} {}
 
   void head(double rad, Time at) { attitude.publish({at, rad, 0.0}, at); }
   void fix(double latitude_deg, Time at) { position.publish({at, latitude_deg, 139.0, 1.0}, at); }
@@ -54,6 +55,25 @@ TEST_CASE("estimator task: without a fresh heading it publishes nothing", "[high
   CHECK_FALSE(estimator.after_step(kStart + max_age::kAttitude + Duration{1}));
   estimator.head(0.5, kStart + seconds{3600});  // of the future
   CHECK_FALSE(estimator.after_step(kStart + seconds{1}));
+}
+
+TEST_CASE("estimator task: a fix is moved from the antenna to the vehicle by the heading",
+          "[high_level][tasks]") {
+  EstimatorOptions options = options_for(PositionSource::kGps);
+  options.antenna = {{0.5, -2.0}};  // to starboard, and astern
+  struct Row {
+    double heading_rad, x_m, y_m;
+  };
+  for (const Row& row : {Row{0.0, -0.5, 2.0}, Row{1.5707963267948966, 2.0, 0.5},
+                         Row{-1.5707963267948966, -2.0, -0.5}}) {
+    Estimator estimator{options};
+    estimator.head(row.heading_rad, kStart);
+    estimator.fix(35.0, kStart);
+    const auto state = estimator.after_step(kStart);
+    REQUIRE(state);
+    CHECK(state->x_m == Approx(row.x_m).margin(1e-6));
+    CHECK(state->y_m == Approx(row.y_m).margin(1e-6));
+  }
 }
 
 TEST_CASE("estimator task: without a fresh position it publishes nothing", "[high_level][tasks]") {
