@@ -40,20 +40,20 @@ class WalkedBoat {
 
   // Why it cannot be walked; nothing where it can.
   [[nodiscard]] std::string take() {
-    const auto status = ask({{"command", "status"}});
-    const std::string state = status.value("/thrust/state"_json_pointer, "");
-    if (status.value("state", "") == "under_way" || status.value("state", "") == "holding") {
-      return "a mission is under way";
-    }
-    if (const Time until = clock_.now() + kFirstFix; !wait_for_sight(until)) {
+    if (!wait_for_sight(clock_.now() + kFirstFix)) {
       return "no heading, or no position fix: speeds over ground are measured by a receiver "
              "(devices.position)";
     }
-    if (state == "disarmed") {
-      if (const std::string no = refusal(ask({{"command", "arm"}})); !no.empty()) {
-        return no;
-      }
-      armed_ = true;
+    const auto status = ask({{"command", "status"}});
+    const std::string mission = status.value("state", "");
+    if (mission == "under_way" || mission == "holding") {
+      return "a mission is under way";
+    }
+    const std::string state = status.value("/thrust/state"_json_pointer, "");
+    if (state != "armed" && state != "manual") {
+      std::string no = refusal(ask({{"command", "arm"}}));
+      armed_ = no.empty();
+      return no;
     }
     return {};
   }
@@ -189,7 +189,8 @@ void print_result(const WalkResult& result, const CalibrateOptions& options, boo
     result.fault = walked.why();
   }
   if (!walked.leave()) {
-    result.fault = "the boat did not confirm that it is neutral and disarmed";
+    result.fault += std::string{result.fault.empty() ? "" : "; "} +
+                    "the boat did not confirm that it is neutral and disarmed";
   }
   if (!result.calibration.pairs.empty() || options.common.json) {
     print_result(result, options, config.document.root().has("mounting"));
