@@ -4,7 +4,7 @@
 include(GNUInstallDirs)
 install(TARGETS lodesman lodesman-low lodesman-high RUNTIME)
 install(DIRECTORY deploy/config deploy/pictures DESTINATION ${CMAKE_INSTALL_DATADIR}/lodesman/deploy)
-install(DIRECTORY hal_sim/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/lodesman/hal_sim)
+install(DIRECTORY hal_sim/scenarios hal_sim/vessels DESTINATION ${CMAKE_INSTALL_DATADIR}/lodesman/hal_sim)
 install(DIRECTORY docs/ TYPE DOC)
 install(FILES README.md LICENSE TYPE DOC)
 install(FILES deploy/udev/60-lodesman.rules DESTINATION lib/udev/rules.d)

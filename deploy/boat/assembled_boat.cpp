@@ -11,6 +11,11 @@ namespace {
 
 // The simulated vessel has to be moved by something, and to move what is sensed.
 void require_sound_vessel(const BoatConfig& config) {
+  const std::string& hull = config.simulation.hull;
+  if (!hull_file(hull)) {
+    config.document.root().table("simulation").refuse("hull", "\"" + hull + '"' + kNoHull);
+  }
+  static_cast<void>(load_hull(hull));
   const TomlTable table = config.document.root().table("devices");
   if (config.simulation.vessel == SimulatedVessel::kThrust) {
     if (const char* real = real_device_aboard(config.devices); real != nullptr) {
@@ -103,7 +108,7 @@ struct AssembledBoat::Impl {
   Impl(Blackboard& board, const BoatConfig& config, const Scenario* scenario) {
     if (scenario != nullptr) {
       link = std::make_unique<SimLink>();
-      world.emplace(*scenario, load_vessel_parameters(), board, *link, moved_by(config));
+      world.emplace(*scenario, load_hull(config.simulation.hull), board, *link, moved_by(config));
       looped.emplace(*world, board, *link, scenario->faults);
     }
     low.emplace(board, Role::kLow,

@@ -50,6 +50,7 @@ enum class SimulatedVessel : std::uint8_t {
 struct SimulationSettings {
   std::string scenario;  // a file, or the name of a shipped one; empty: no world
   SimulatedVessel vessel = SimulatedVessel::kThrust;
+  std::string hull;  // the name of a shipped one, or a file
   Duration lockstep_jitter{};
   Duration sonar_view_period{};
 };

@@ -45,7 +45,7 @@ struct DeviceBench::Impl {
   Impl(const DeviceBenchOptions& options, const Scenario& scenario, Time now)
       : boat_segment{options.boat_segment},
         board{SharedBlackboard::create(world_segment_of(options.boat_segment))},
-        world{scenario, load_vessel_parameters(), board.writable(), *link},
+        world{scenario, load_hull(options.hull), board.writable(), *link},
         mission{writer_of(board.writable(), board.writable().mission_status, Role::kHigh)},
         ahrs{ahrs_options(scenario), scenario.faults, now},
         thrusters{box_options(options, scenario), scenario.faults, now},

@@ -16,6 +16,7 @@ namespace lodesman {
 
 struct DeviceBenchOptions {
   std::string boat_segment;
+  std::string hull;                 // as load_hull takes it
   std::filesystem::path directory;  // of the ptys' names: ahrs, thrusters
   std::string ahrs_port;            // a serial port instead of a pty; empty: a pty
   std::string thruster_port;

@@ -93,6 +93,7 @@ int run(DevicesOptions& options) {
   Scenario scenario = load_named_scenario(config.simulation.scenario, config.speeds);
   scenario.seed = options.seed.value_or(scenario.seed);
   options.bench.boat_segment = config.segment;
+  options.bench.hull = config.simulation.hull;
   options.bench.box =
       options.box == "roboclaw" ? ThrusterBoxKind::kRoboClaw : ThrusterBoxKind::kMaestro;
   const SteadyClock clock;

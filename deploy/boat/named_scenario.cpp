@@ -15,7 +15,26 @@ fs::path scenario_file(const std::string& name_or_path) {
   return find_scenario(name_or_path, directories);
 }
 
-VesselParameters load_vessel_parameters() { return load_vessel(config_file("vessel.toml")); }
+std::optional<fs::path> hull_file(const std::string& name_or_path) {
+  std::error_code ignored;
+  const bool is_name = name_or_path.find('/') == std::string::npos;
+  for (const fs::path& file :
+       {is_name ? share_directory() / "hal_sim" / "vessels" / (name_or_path + ".toml") : fs::path{},
+        fs::path{name_or_path}}) {
+    if (fs::is_regular_file(file, ignored)) {
+      return file;
+    }
+  }
+  return std::nullopt;
+}
+
+VesselParameters load_hull(const std::string& name_or_path) {
+  const auto file = hull_file(name_or_path);
+  if (!file) {
+    throw StartupError(name_or_path + kNoHull);
+  }
+  return load_vessel(*file);
+}
 
 Scenario load_named_scenario(const std::string& name_or_path, const SpeedTable& speeds) {
   if (const auto number = encounter_number(name_or_path)) {

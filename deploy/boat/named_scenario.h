@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "hal_sim/scenario/scenario.h"
@@ -16,7 +17,10 @@ namespace lodesman {
 [[nodiscard]] Scenario load_named_scenario(const std::string& name_or_path,
                                            const SpeedTable& speeds);
 [[nodiscard]] std::filesystem::path scenario_file(const std::string& name_or_path);
-[[nodiscard]] VesselParameters load_vessel_parameters();
+// A hull by the name of a shipped one (hal_sim/vessels), or by path; none where it is neither.
+[[nodiscard]] std::optional<std::filesystem::path> hull_file(const std::string& name_or_path);
+inline constexpr const char* kNoHull = " is neither a shipped hull (paper-asv, otter) nor a file";
+[[nodiscard]] VesselParameters load_hull(const std::string& name_or_path);
 
 // The scenario with the zones that are planned with: its own, or those that the pilot makes round
 // what it gives a zone to and is sure of.

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "hal_sim/world/hull_forces.h"
 
 namespace lodesman {
 namespace {
@@ -10,50 +13,55 @@ namespace {
 // x, y, heading, surge, sway, yaw rate.
 using StateVector = Eigen::Matrix<double, 6, 1>;
 
-struct Thrust {
-  double ahead_n = 0.0;
-  double turning_n_m = 0.0;  // clockwise positive
-};
-
-// How much of the linear sway drag is left where lift acts: the faster the hull goes ahead, the
-// less it holds against sliding, so that the lateral force which lift adds grows with surge speed
-// and with the drift angle, and never outweighs the drag. (Ours: the paper gives no figures.)
-[[nodiscard]] double sway_hold(const VesselParameters& p, double surge_m_s) noexcept {
-  const double u2 = surge_m_s * surge_m_s;
-  return 1.0 - p.lift_share * u2 / (u2 + p.lift_half_surge_m_s * p.lift_half_surge_m_s);
+[[nodiscard]] HullForce thrust_of(const VesselParameters& p, PropellerSpeeds speeds) noexcept {
+  const double left_n = propeller_thrust_n(p, speeds.left_rad_s);
+  const double right_n = propeller_thrust_n(p, speeds.right_rad_s);
+  return {left_n + right_n, 0.0, (left_n - right_n) * p.thruster_offset_m};
 }
 
 [[nodiscard]] StateVector rates(const VesselParameters& p, const WaterConditions& water,
-                                const Thrust& thrust, const StateVector& s) noexcept {
+                                const HullForce& thrust, const StateVector& s) noexcept {
   const double c = std::cos(s[2]);
   const double d = std::sin(s[2]);
-  const double u = s[3];
-  const double v = s[4];
-  const double r = s[5];
-  const double hold = water.lift ? sway_hold(p, u) : 1.0;
-  const double surge_drag_n = (p.surge_drag_n_s_per_m + p.surge_drag_n_s2_per_m2 * std::abs(u)) * u;
-  const double sway_drag_n =
-      (p.sway_drag_n_s_per_m * hold + p.sway_drag_n_s2_per_m2 * std::abs(v)) * v;
-  const double yaw_drag_n_m = (p.yaw_drag_n_m_s + p.yaw_drag_n_m_s2 * std::abs(r)) * r;
-  // The water that meets a drifting hull turns it further out of its course.
-  const double drift_n_m = -p.drift_moment_kg * u * v;
+  const HullVelocity v{s[3], s[4], s[5]};
+  const HullAcceleration a = acceleration(p, v, thrust, water.lift);
   StateVector rate;
-  rate << v * c + u * d + water.current_x_m_s,  //
-      u * c - v * d + water.current_y_m_s,      //
-      r,                                        //
-      (thrust.ahead_n - surge_drag_n) / p.mass_kg + v * r, -sway_drag_n / p.mass_kg - u * r,
-      (thrust.turning_n_m + drift_n_m - yaw_drag_n_m) / p.yaw_inertia_kg_m2;
+  rate << v.sway_m_s * c + v.surge_m_s * d + water.current_x_m_s,
+      v.surge_m_s * c - v.sway_m_s * d + water.current_y_m_s, v.yaw_rate_rad_s, a.surge_m_s2,
+      a.sway_m_s2, a.yaw_rad_s2;
   return rate;
 }
 
+// The thrust at the beginning, in the middle and at the end of a step.
+struct ThrustOverStep {
+  HullForce first;
+  HullForce middle;
+  HullForce last;
+};
+
 [[nodiscard]] StateVector runge_kutta_4(const VesselParameters& p, const WaterConditions& water,
-                                        const Thrust& thrust, const StateVector& s,
+                                        const ThrustOverStep& thrust, const StateVector& s,
                                         double h_s) noexcept {
-  const StateVector k1 = rates(p, water, thrust, s);
-  const StateVector k2 = rates(p, water, thrust, s + 0.5 * h_s * k1);
-  const StateVector k3 = rates(p, water, thrust, s + 0.5 * h_s * k2);
-  const StateVector k4 = rates(p, water, thrust, s + h_s * k3);
+  const StateVector k1 = rates(p, water, thrust.first, s);
+  const StateVector k2 = rates(p, water, thrust.middle, s + 0.5 * h_s * k1);
+  const StateVector k3 = rates(p, water, thrust.middle, s + 0.5 * h_s * k2);
+  const StateVector k4 = rates(p, water, thrust.last, s + h_s * k3);
   return s + (h_s / 6.0) * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+}
+
+// A lag of the first order, exactly.
+[[nodiscard]] PropellerSpeeds after(double time_s, double lag_s, PropellerSpeeds from,
+                                    PropellerSpeeds told) noexcept {
+  const double left = lag_s > 0.0 ? std::exp(-time_s / lag_s) : 0.0;
+  return {told.left_rad_s + (from.left_rad_s - told.left_rad_s) * left,
+          told.right_rad_s + (from.right_rad_s - told.right_rad_s) * left};
+}
+
+[[nodiscard]] PropellerSpeeds limited(const VesselParameters& p, PropellerSpeeds told) noexcept {
+  const auto limit = [&](double rad_s) {
+    return std::clamp(rad_s, -p.propeller_astern_rad_s, p.propeller_ahead_rad_s);
+  };
+  return {limit(told.left_rad_s), limit(told.right_rad_s)};
 }
 
 }  // namespace
@@ -72,25 +80,44 @@ Vessel Vessel::under_way(const VesselParameters& parameters, const WaterConditio
 }
 
 void Vessel::advance(double dt_s, ThrustCommand command) noexcept {
+  PropellerSpeeds told{propeller_rad_s(parameters_, command.left),
+                       propeller_rad_s(parameters_, command.right)};
+  if (parameters_.wires_swapped) {
+    std::swap(told.left_rad_s, told.right_rad_s);
+  }
+  told.left_rad_s *= parameters_.left_reversed ? -1.0 : 1.0;
+  told.right_rad_s *= parameters_.right_reversed ? -1.0 : 1.0;
+  advance(dt_s, told);
+}
+
+void Vessel::advance(double dt_s, PropellerSpeeds wanted) noexcept {
   if (!(dt_s > 0.0)) {
     return;
   }
-  const double left_n = thrust_n(parameters_, command.left);
-  const double right_n = thrust_n(parameters_, command.right);
-  const Thrust thrust{left_n + right_n, (left_n - right_n) * parameters_.thruster_offset_m};
+  const PropellerSpeeds told = limited(parameters_, wanted);
   // A hair more than step_s_max is one step, not two.
   const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / parameters_.step_s_max - 1e-6)));
   const double h_s = dt_s / steps;
+  const double lag_s = parameters_.propeller_lag_s;
   StateVector s;
   s << state_.pose.p_WV.xy_m, state_.pose.heading.rad(), state_.surge_m_s, state_.sway_m_s,
       state_.yaw_rate_rad_s;
+  // Without a lag they run as told from the beginning of the step on.
+  PropellerSpeeds speeds = lag_s > 0.0 ? state_.propellers : told;
   for (int i = 0; i < steps; ++i) {
-    s = runge_kutta_4(parameters_, water_, thrust, s, h_s);
+    const PropellerSpeeds middle = after(h_s / 2.0, lag_s, speeds, told);
+    const PropellerSpeeds last = after(h_s, lag_s, speeds, told);
+    s = runge_kutta_4(parameters_, water_,
+                      {thrust_of(parameters_, speeds), thrust_of(parameters_, middle),
+                       thrust_of(parameters_, last)},
+                      s, h_s);
+    speeds = last;
   }
   state_.pose = {{s.head<2>()}, Heading::clockwise_from_y_rad(s[2])};
   state_.surge_m_s = s[3];
   state_.sway_m_s = s[4];
   state_.yaw_rate_rad_s = s[5];
+  state_.propellers = speeds;
 }
 
 Eigen::Vector2d Vessel::ground_velocity_V_m_s() const noexcept {

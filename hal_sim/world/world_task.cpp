@@ -17,6 +17,11 @@ namespace {
   return scenario;
 }
 
+[[nodiscard]] bool thrusts(ThrustCommand thrust) noexcept {
+  const auto turns = [](std::uint8_t command) { return command != 127 && command != 128; };
+  return turns(thrust.left) || turns(thrust.right);
+}
+
 }  // namespace
 
 WorldTask::WorldTask(const Scenario& scenario, const VesselParameters& vessel,
@@ -46,11 +51,15 @@ void WorldTask::step(Time now) noexcept {
     return;
   }
   const ThrustCommand thrust = thrust_at(box_, now);
-  if (mission_started_ != Time{}) {
+  const bool started = mission_started_ != Time{};
+  cast_off_ = cast_off_ || started || thrusts(thrust);
+  if (cast_off_) {
     // The first step after the start moves on from the start alone.
-    const Time from = std::max(stepped_to_, std::min(mission_started_, now));
+    const Time from =
+        started ? std::max(stepped_to_, std::min(mission_started_, now)) : stepped_to_;
     const Duration dt = std::clamp(now - from, Duration{}, kLongestStep);
-    const Duration scenario_time = std::max(now - mission_started_, Duration{});
+    const Duration scenario_time =
+        started ? std::max(now - mission_started_, Duration{}) : Duration{};
     world_.step(to_seconds(dt), to_seconds(scenario_time), thrust);
   }
   stepped_to_ = now;

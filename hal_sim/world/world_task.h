@@ -13,9 +13,10 @@
 
 namespace lodesman {
 
-// Until the mission starts the boat lies at its start and the scenario's time stands at 0; from
-// then on both go on for good, through other missions too. On a blackboard that
-// holds the truth of a world that died, the boat lies where that left it, at rest.
+// Until the mission starts the scenario's time stands at 0, and until then or the first thrust, by
+// hand, the boat lies at its start; from then on both go on for good, through other missions too.
+// On a blackboard that holds the truth of a world that died, the boat lies where that left it, at
+// rest.
 //
 // Where the boat itself is real, the vessel lies where the estimate has it: what is simulated is
 // simulated round that, and there is no truth to be published.
@@ -53,6 +54,7 @@ class WorldTask final : public Task {
   std::optional<Writer<WorldTruth>> truth_out_;
   Writer<WorldSample> sample_out_;
   std::array<Rung, 3> sensors_;
+  bool cast_off_ = false;
   Time stepped_to_{};
   Time mission_started_{};  // the first one; 0 before it
 };

@@ -12,7 +12,7 @@ namespace lodesman::fuzz {
 
 void scenario(std::string_view input) {
   static const VesselParameters vessel =
-      load_vessel(LODESMAN_SOURCE_DIR "/deploy/config/vessel.toml");
+      load_vessel(LODESMAN_SOURCE_DIR "/hal_sim/vessels/paper-asv.toml");
   static const SpeedTable speeds =
       read_speed_table(TomlDocument::from_file(LODESMAN_SOURCE_DIR "/deploy/config/default.toml")
                            .root()

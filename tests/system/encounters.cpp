@@ -50,7 +50,7 @@ void sail_group(int group) {
   const std::array obstacles{obstacle};
   VesselState state;
   state.surge_m_s = surge_m_s;
-  return find_escape({load_vessel_parameters(), {}, obstacles}, state, 0.0, 20.0).has_value();
+  return find_escape({load_hull("paper-asv"), {}, obstacles}, state, 0.0, 20.0).has_value();
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ TEST_CASE("reference: what is nearest is told by its number", "[system]") {
   std::array obstacles{circle(0.0, 9.0, 0.5), circle(0.0, 4.0, 0.5)};
   obstacles[1].at_start.id = 2;
   obstacles[0].velocity_y_m_s = -1.0;
-  const Waters waters{load_vessel_parameters(), {}, obstacles};
+  const Waters waters{load_hull("paper-asv"), {}, obstacles};
   CHECK(nearest_obstacle(waters, {}, 0.0).obstacle == 2);
   CHECK(nearest_obstacle(waters, {}, 6.0).obstacle == 1);
   CHECK(nearest_obstacle(waters, {}, 0.0).clearance_m == Approx(4.0 - 0.5 - 1.02));

@@ -61,7 +61,7 @@ class Witness {
 
 [[nodiscard]] Collision judge(const Scenario& scenario, const Witness& witness) {
   const Waters waters{
-      load_vessel_parameters(), {0.0, 0.0, scenario.environment.lift}, scenario.obstacles};
+      load_hull("paper-asv"), {0.0, 0.0, scenario.environment.lift}, scenario.obstacles};
   // One in the last tenth of a second, after the last plan, is judged by the last truth seen.
   const WorldTruth hit = witness.hit().value_or(witness.now());
   Collision collision;

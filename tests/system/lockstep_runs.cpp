@@ -166,6 +166,27 @@ TEST_CASE("lock-step: what cannot be reached is waited for at a place held again
   }
 }
 
+// Beside the boat, or astern: lift must not let it slide round them for ever.
+TEST_CASE("lock-step: with lift a goal abeam is reached at 1.12 m/s", "[system]") {
+  const BoatConfig configuration = load_configuration("default", {});
+  for (const char* goal : {"[4.0, 3.0]", "[6.0, 6.0]", "[-8.0, 0.0]", "[3.0, -6.0]"}) {
+    const auto text = TomlDocument::from_text(
+        "name = \"abeam\"\nseed = 1\ntime_limit_s = 60.0\n"
+        "[mission]\nstart_m = [0.0, 0.0]\nstart_heading_deg = 0.0\ngoal_radius_m = 0.5\n"
+        "goal_m = " +
+            std::string{goal} +
+            "\n[vehicle]\nspeed_m_s = 1.12\nradius_m = 0.5\n[environment]\nlift = true\n",
+        "abeam.toml");
+    const Scenario scenario = read_scenario(text, configuration.speeds);
+    const std::function<bool()> never = [] { return false; };
+    const std::function<void(const RunProgress&)> silent = [](const RunProgress&) {};
+    const RunRecord record = run_lockstep({configuration, scenario, never, silent, {}});
+    INFO(goal);
+    CHECK(record.result.outcome == "goal");
+    CHECK(record.result.path_length_m < 20.0);
+  }
+}
+
 // The straight way leads through the keep-out area, and round it there is room on one side alone.
 TEST_CASE("areas: fence and keep-out are kept to on the way", "[system]") {
   const std::string text = R"(name = "areas"

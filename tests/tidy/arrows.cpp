@@ -132,6 +132,7 @@ const std::vector<Arrow>& arrows() {
       {"deploy/operator/watch", {"mid_level"}},
       {"deploy/operator/doctor", {"deploy/boat", "deploy/operator/watch", "drivers", "mid_level"}},
       {"deploy/operator/bench", {"deploy/boat", "low_level/path", "mid_level"}},
+      {"deploy/operator/calibrate", {"mid_level"}},
       {"deploy/operator/decode", {"drivers", "mid_level"}},
       {"deploy/operator/cli",
        {"deploy/boat", "deploy/operator", "hal_sim/scenario", "hal_sim/campaign",

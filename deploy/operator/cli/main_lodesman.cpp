@@ -4,6 +4,7 @@
 
 #include "deploy/boat/process_main.h"
 #include "deploy/boat/version.h"
+#include "deploy/operator/cli/calibrate_command.h"
 #include "deploy/operator/cli/check_command.h"
 #include "deploy/operator/cli/decode_command.h"
 #include "deploy/operator/cli/doctor_command.h"
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
   cli::add_hil_command(app, exit_status);
   cli::add_operator_commands(app, exit_status);
   cli::add_thrust_commands(app, exit_status);
+  cli::add_calibrate_command(app, exit_status);
   cli::add_segment_command(app, exit_status);
   cli::add_plan_command(app, exit_status);
   cli::add_check_command(app, exit_status);

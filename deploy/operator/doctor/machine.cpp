@@ -116,7 +116,7 @@ void measure_configuration(const CommonOptions& common, MachineFacts& facts) {
     }
     const BoatConfig config = load_configuration("default", common);
     (void)load_configuration("paper", common);
-    (void)load_vessel_parameters();
+    (void)load_hull(config.simulation.hull);
     for (const auto& entry : fs::directory_iterator{share / "hal_sim" / "scenarios"}) {
       if (entry.path().extension() == ".toml") {
         (void)load_scenario(entry.path(), config.speeds);

@@ -23,7 +23,7 @@ TEST_CASE("check: shipped files are right, each as what it is", "[cli]") {
   const FileCheck overlay = check_file(shipped("deploy/config/paper.toml"), {});
   REQUIRE(overlay.error.empty());
   REQUIRE(overlay.kind == "configuration");
-  const FileCheck vessel = check_file(shipped("deploy/config/vessel.toml"), {});
+  const FileCheck vessel = check_file(shipped("hal_sim/vessels/paper-asv.toml"), {});
   REQUIRE(vessel.error.empty());
   REQUIRE(vessel.kind == "vessel");
   const auto json = overlay.to_json();
@@ -48,6 +48,10 @@ TEST_CASE("check: a wrong file is refused by line and key", "[cli]") {
           std::string::npos);
   REQUIRE(refused("[vehicle]\nsurge_ref = 16\n", "scenario").find(": missing") !=
           std::string::npos);
+  REQUIRE(refused("[simulation]\nscenario = 'paper-static'\nhull = 'nosuch'\n", "configuration") ==
+          "3: simulation.hull: \"nosuch\" is neither a shipped hull (paper-asv, otter) nor a file");
+  REQUIRE(
+      refused("[vessel]\nmass_kg = -95.0\n", "vessel").starts_with("2: vessel.mass_kg: must be"));
   REQUIRE(refused("[mission\n", "unknown").starts_with("1: toml: "));
 }
 

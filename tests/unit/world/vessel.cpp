@@ -210,11 +210,11 @@ TEST_CASE("vessel: the P law is steady up to 0.74 m/s and less so at 1.12", "[ha
   return (vessel.state().pose.p_WV.xy_m - reckoned_m).norm();
 }
 
-TEST_CASE("vessel: it goes where it points without lift, and slides 0.5-1.5 m off with it",
+TEST_CASE("vessel: it goes where it points without lift, and slides 0.3-1.5 m off with it",
           "[hal_sim][vessel]") {
   CHECK(dead_reckoning_error_m(false) < 0.1);
   const double lifted_m = dead_reckoning_error_m(true);
-  CHECK(lifted_m > 0.5);
+  CHECK(lifted_m > 0.3);  // 0.52 m is what a hull without any hold comes to
   CHECK(lifted_m < 1.5);
 }
 

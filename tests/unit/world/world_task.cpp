@@ -51,10 +51,10 @@ struct Bench {
   Time now{std::chrono::seconds{100}};
 };
 
-TEST_CASE("world task: before the mission the boat lies at its start and no time passes",
+TEST_CASE("world task: before mission and thrust the boat lies at its start and no time passes",
           "[hal_sim][world]") {
   Bench bench{"[environment]\ncurrent_m_s = [0.5, 0.0]\n"};
-  REQUIRE(bench.box.command({255, 255}, bench.now) == CommandStatus::kTaken);
+  REQUIRE(bench.box.command(kNeutralThrust, bench.now) == CommandStatus::kTaken);
   bench.run_for(std::chrono::seconds{2});
   const auto* truth = bench.truths.latest();
   REQUIRE(truth != nullptr);
@@ -119,6 +119,23 @@ TEST_CASE("world task: the boat moves by the box's last command, until the box's
   CHECK(bench.task.truth().surge_m_s == Approx(held_m_s).epsilon(0.01));
   bench.run_for(std::chrono::seconds{20});
   CHECK(bench.task.truth().surge_m_s < 0.01);
+}
+
+TEST_CASE("world task: thrust by hand moves the boat before a mission, and no scenario time passes",
+          "[hal_sim][world]") {
+  Bench bench;
+  bench.run_for(std::chrono::seconds{2});
+  for (int i = 0; i < 100; ++i) {
+    REQUIRE(bench.box.command({200, 200}, bench.now) == CommandStatus::kTaken);
+    bench.run_for(milliseconds{20});
+  }
+  const double moved_m = bench.task.truth().y_m;
+  CHECK(moved_m > 0.1);
+  CHECK(bench.task.truth().scenario_time_s == Approx(0.0).margin(0.0));
+  CHECK(bench.samples.latest()->value.started == 0);
+  REQUIRE(bench.box.command(kNeutralThrust, bench.now) == CommandStatus::kTaken);
+  bench.run_for(std::chrono::seconds{1});
+  CHECK(bench.task.truth().y_m > moved_m + 0.05);  // it is afloat, and goes on
 }
 
 TEST_CASE("world task: late and missed steps lose no time", "[hal_sim][world]") {
