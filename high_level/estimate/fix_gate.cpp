@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lodesman {
 namespace {
@@ -10,7 +11,11 @@ namespace {
 constexpr double kSameDigits_m = 1e-6;  // two fixes nearer than this are the same text
 constexpr Duration kRunBreaks = std::chrono::seconds{3};  // fixes farther apart confirm nothing
 constexpr std::size_t kRunLeast = 3;                      // of them make a run
-constexpr std::size_t kSettled = 3;  // fixes believed before a position is one to stay with
+constexpr std::size_t kSettled = 3;    // fixes believed before a position is one to stay with
+constexpr double kRunSpeed_m_s = 3.0;  // no model is wrong by more
+// A drift is one that is more than its scatter and more than a current that the filter will learn.
+constexpr double kDriftSigmas = 3.0;
+constexpr double kDriftLeast_m_s = 0.1;
 // An approach is over where the fix lies within what its own scatter explains.
 constexpr double kArrivedSigmas = 2.0;
 
@@ -69,12 +74,14 @@ bool FixGate::within(const Look& look) const noexcept {
 bool FixGate::extends_run(const Look& look) noexcept {
   const double gap_s = to_seconds(look.measured - run_.last);
   const double explained_m =
-      options_.speed_m_s * gap_s + options_.sigmas * std::sqrt(2.0) * look.sigma_m;
+      kRunSpeed_m_s * gap_s + options_.sigmas * std::numbers::sqrt2 * look.sigma_m;
   const bool agrees = run_.count > 0 && look.measured - run_.last <= kRunBreaks &&
                       (look.innovation_m - run_.innovation_m).norm() <= explained_m;
   if (!agrees) {
     run_ = {};
     run_.began = look.measured;
+    run_.drift_since = look.measured;
+    run_.first_m = look.innovation_m;
   }
   ++run_.count;
   run_.last = look.measured;
@@ -96,6 +103,7 @@ FixVerdict FixGate::judge_refused(const Look& look) noexcept {
   phase_ = Phase::kApproaching;
   last_believed_ = look.measured;
   approach_step_m_ = 0.0;
+  look_for_drift(look);
   return FixVerdict::kApproach;
 }
 
@@ -112,15 +120,36 @@ FixVerdict FixGate::judge_approached(const Look& look, Duration since) noexcept 
   last_believed_ = look.measured;
   const double gap_s = std::min(to_seconds(since), 1.0);
   approach_step_m_ = options_.approach_m_s * gap_s;
+  look_for_drift(look);
   if (look.innovation_m.norm() <= kArrivedSigmas * look.sigma_m + approach_step_m_) {
     phase_ = Phase::kTracking;
     (void)believe(look, FixVerdict::kApproach);
   } else {
     // What comes next is that much nearer.
-    run_.innovation_m -=
+    const Eigen::Vector2d step_m =
         std::min(1.0, approach_step_m_ / look.innovation_m.norm()) * look.innovation_m;
+    run_.innovation_m -= step_m;
+    run_.approached_m += step_m;
   }
   return FixVerdict::kApproach;
+}
+
+// An offset that grows is no leap of the receiver: boat or water are faster than is believed.
+void FixGate::look_for_drift(const Look& look) noexcept {
+  drift_m_s_.setZero();
+  const Duration since = look.measured - run_.drift_since;
+  if (since < options_.lasting) {
+    return;
+  }
+  const Eigen::Vector2d moved_m = look.innovation_m + run_.approached_m - run_.first_m;
+  const Eigen::Vector2d drift_m_s = moved_m / to_seconds(since);
+  drift_sigma_m_s_ = std::numbers::sqrt2 * look.sigma_m / to_seconds(since);
+  if (drift_m_s.norm() > kDriftSigmas * drift_sigma_m_s_ + kDriftLeast_m_s) {
+    drift_m_s_ = drift_m_s;
+    run_.drift_since = look.measured;
+    run_.first_m = look.innovation_m;
+    run_.approached_m.setZero();
+  }
 }
 
 FixVerdict FixGate::believe(const Look& look, FixVerdict verdict) noexcept {

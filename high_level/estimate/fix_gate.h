@@ -58,6 +58,10 @@ class FixGate {
   [[nodiscard]] double believable_sigma_m(double said_m) const noexcept;
   // How far the estimate may go towards the fix last judged as kApproach.
   [[nodiscard]] double approach_step_m() const noexcept { return approach_step_m_; }
+  // What those fixes moved by against the estimate [m/s], where it is more than scatter: then it is
+  // the velocity that is wrong, and not only the place. 0 else.
+  [[nodiscard]] const Eigen::Vector2d& drift_m_s() const noexcept { return drift_m_s_; }
+  [[nodiscard]] double drift_sigma_m_s() const noexcept { return drift_sigma_m_s_; }
   [[nodiscard]] Time last_measured() const noexcept { return last_measured_; }
   [[nodiscard]] Time last_believed() const noexcept { return last_believed_; }
   [[nodiscard]] bool knows_position(Time now) const noexcept {
@@ -73,6 +77,10 @@ class FixGate {
     Time began{};
     Time last{};
     Eigen::Vector2d innovation_m = Eigen::Vector2d::Zero();
+    // Of the drift: since when, from where, and how much of the way was approached meanwhile.
+    Time drift_since{};
+    Eigen::Vector2d first_m = Eigen::Vector2d::Zero();
+    Eigen::Vector2d approached_m = Eigen::Vector2d::Zero();
   };
 
   [[nodiscard]] bool is_frozen(const Look& look) noexcept;
@@ -80,6 +88,7 @@ class FixGate {
   [[nodiscard]] bool extends_run(const Look& look) noexcept;
   [[nodiscard]] FixVerdict judge_approached(const Look& look, Duration since) noexcept;
   [[nodiscard]] FixVerdict judge_refused(const Look& look) noexcept;
+  void look_for_drift(const Look& look) noexcept;
   FixVerdict believe(const Look& look, FixVerdict verdict) noexcept;
 
   FixGateOptions options_;
@@ -92,6 +101,8 @@ class FixGate {
   std::size_t believed_ = 0;
   Run run_;
   double approach_step_m_ = 0.0;
+  Eigen::Vector2d drift_m_s_ = Eigen::Vector2d::Zero();
+  double drift_sigma_m_s_ = 0.0;
   WorldPoint same_;  // what the receiver says, and since when
   double same_since_way_m_ = 0.0;
 };

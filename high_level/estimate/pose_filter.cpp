@@ -18,6 +18,12 @@ constexpr double kSwayAtFirst_m_s = 0.2;
 // A fix from a little before the oldest entry belongs to that.
 constexpr Duration kBeforeOldest = std::chrono::milliseconds{100};
 
+// A P A'. By coefficients: Eigen's blocked product asks for memory where matrices are larger.
+[[nodiscard]] Matrix congruent(const Matrix& a, const Matrix& p) noexcept {
+  const Matrix ap = a.lazyProduct(p);
+  return ap.lazyProduct(a.transpose());
+}
+
 // P after a measurement of the first kSize rows' states with that gain: (I - K H) P (I - K H)' +
 // K R K', which stays symmetric and positive whatever the rounding.
 template <int kSize>
@@ -25,8 +31,8 @@ template <int kSize>
                             const Eigen::Matrix<double, PoseFilter::kStates, kSize>& gain,
                             const Eigen::Matrix<double, kSize, PoseFilter::kStates>& rows,
                             double variance) noexcept {
-  const Matrix kept = Matrix::Identity() - gain * rows;
-  const Matrix after = kept * covariance * kept.transpose() + variance * gain * gain.transpose();
+  const Matrix kept = Matrix::Identity() - gain.lazyProduct(rows);
+  const Matrix after = congruent(kept, covariance) + variance * gain.lazyProduct(gain.transpose());
   return 0.5 * (after + after.transpose());
 }
 
@@ -49,7 +55,7 @@ void forget_where(Matrix& covariance, const Eigen::Matrix2d& position_covariance
 
 }  // namespace
 
-PoseFilter::PoseFilter(const PoseFilterOptions& options)
+PoseFilter::PoseFilter(const PoseFilterOptions& options) noexcept
     : options_{options}, model_{options.vehicle, options.speeds}, gate_{options.gate} {}
 
 void PoseFilter::begin_anew() noexcept {
@@ -138,7 +144,7 @@ void PoseFilter::predict(Vector& mean, Matrix& covariance, const ThrustForces& f
     mean.head<2>() = moved.position.xy_m;
     mean[kHeading] = wrap_to_pi(moved.heading_rad);
     mean.segment<3>(kSurge) = moved.velocity;
-    covariance = slope * covariance * slope.transpose();
+    covariance = congruent(slope, covariance);
     covariance.diagonal() += noise;
   }
 }
@@ -234,8 +240,8 @@ void PoseFilter::place(Entry& then, const WorldPoint& position, double sigma_m) 
   forget_where(then.covariance, sigma_m * sigma_m * Eigen::Matrix2d::Identity());
 }
 
-// The position alone moves: a leap of the receiver says nothing of speed or current. What is left
-// of the way is doubt.
+// The position moves: a leap of the receiver says nothing of speed or current, but where the fixes
+// drift away as well, that is taken for current. What is left of the way is doubt.
 void PoseFilter::approach(Entry& then, const Eigen::Vector2d& innovation_m,
                           double sigma_m) noexcept {
   const double far_m = std::max(innovation_m.norm(), 1e-9);
@@ -244,6 +250,13 @@ void PoseFilter::approach(Entry& then, const Eigen::Vector2d& innovation_m,
   then.mean.head<2>() += step_m;
   forget_where(then.covariance,
                sigma_m * sigma_m * Eigen::Matrix2d::Identity() + left_m * left_m.transpose());
+  if (gate_.drift_m_s().norm() > 0.0) {
+    const double sigma_m_s = std::max(options_.current_sigma_m_s, gate_.drift_sigma_m_s());
+    then.mean.tail<2>() += gate_.drift_m_s();
+    then.covariance.bottomRows<2>().setZero();
+    then.covariance.rightCols<2>().setZero();
+    then.covariance.bottomRightCorner<2, 2>() = sigma_m_s * sigma_m_s * Eigen::Matrix2d::Identity();
+  }
 }
 
 bool PoseFilter::knows_position() const noexcept {

@@ -11,14 +11,13 @@
 // with the next, is approached at a bounded rate. The odometry pose integrates velocities alone: it
 // has kinks where a fix comes, never a jump.
 //
-// Owned by one thread; it allocates when made and never after. What is not finite, out of order or
+// Owned by one thread; it allocates nothing. What is not finite, out of order or
 // of the future is refused.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
-#include <memory>
 
 #include "high_level/estimate/fix_gate.h"
 #include "high_level/estimate/vehicle_model.h"
@@ -50,7 +49,7 @@ class PoseFilter {
   using Vector = Eigen::Matrix<double, kStates, 1>;
   using Matrix = Eigen::Matrix<double, kStates, kStates>;
 
-  explicit PoseFilter(const PoseFilterOptions& options);
+  explicit PoseFilter(const PoseFilterOptions& options) noexcept;
 
   // As if nothing had ever come.
   void begin_anew() noexcept;
@@ -88,10 +87,11 @@ class PoseFilter {
   };
   static constexpr std::size_t kHistory = 192;  // 2.7 s of steps 14 ms apart
 
-  [[nodiscard]] Entry& entry(std::size_t number) const noexcept {
-    return (*history_)[number % kHistory];
+  [[nodiscard]] Entry& entry(std::size_t number) noexcept { return history_[number % kHistory]; }
+  [[nodiscard]] const Entry& entry(std::size_t number) const noexcept {
+    return history_[number % kHistory];
   }
-  [[nodiscard]] Entry& newest() const noexcept { return entry(count_ - 1); }
+  [[nodiscard]] const Entry& newest() const noexcept { return entry(count_ - 1); }
   [[nodiscard]] std::size_t oldest() const noexcept {
     return count_ > kHistory ? count_ - kHistory : 0;
   }
@@ -111,10 +111,9 @@ class PoseFilter {
   PoseFilterOptions options_;
   VehicleModel model_;
   FixGate gate_;
-  std::unique_ptr<std::array<Entry, kHistory>> history_ =
-      std::make_unique<std::array<Entry, kHistory>>();
-  std::size_t count_ = 0;  // entries ever made
-  Time heading_of_{};      // when the last heading was measured
+  std::array<Entry, kHistory> history_{};  // 150 KB
+  std::size_t count_ = 0;                  // entries ever made
+  Time heading_of_{};                      // when the last heading was measured
   WorldPoint odometry_;
   bool aligned_ = false;  // with the world, once: where the first fix was believed
   double way_m_ = 0.0;    // through the water, ever

@@ -3,6 +3,7 @@
 // simulated runs in lock-step and of recordings. One thread; throws std::runtime_error.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -140,6 +140,17 @@ TEST_CASE("G11: fixes that go on to be far off are approached no faster than set
   CHECK(voyage.largest_jump_m < 0.01);
 }
 
+TEST_CASE("pose filter: a boat that goes as no model foresees is followed again",
+          "[high_level][estimate]") {
+  Voyage towed;
+  towed.sail(30.0);
+  towed.boat.current_m_s = {1.5, 0.0};  // three times what the gate allows for
+  towed.sail(30.0);
+  CHECK(towed.error_m() < 1.0);
+  CHECK((towed.filter.mean().tail<2>() - towed.boat.current_m_s).norm() < 0.3);
+  CHECK(towed.filter.state().trust == PositionTrust::kTracked);
+}
+
 TEST_CASE("G12: another receiver with a bias moves the estimate slowly", "[high_level][estimate]") {
   Voyage voyage;
   voyage.sail(30.0);
