@@ -201,11 +201,13 @@ class Table {
   }
   void row(const std::string& name, const Receiver& receiver, const Outcome& o) {
     fmt::print(
-        "| {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} | {:.2f} | {:.2f} | {:.1f} "
+        "| {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} | {:.2f} | {} | {:.1f} "
         "|\n",
         name, receiver.sigma_m, receiver.rate_hz, o.raw_m2.root(), o.fixed_m2.root(),
         o.filter_m2.root(), o.gap_end_m2.root(), std::sqrt(o.fixed_at_worst_m2.largest),
-        o.position_nees.mean(), o.current_nees.mean(), 100.0 * o.jump_m.largest);
+        o.position_nees.mean(),
+        o.current_nees.count > 0 ? fmt::format("{:.2f}", o.current_nees.mean()) : "-",
+        100.0 * o.jump_m.largest);
     std::fflush(stdout);
     broken("a fix far off was believed", o.far_fixes_believed > 0);
     broken("the filter is no better than the fixes", !(o.filter_m2.root() < o.raw_m2.root()));
