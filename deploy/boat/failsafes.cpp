@@ -10,6 +10,11 @@
 #include "mid_level/blackboard/blackboard.h"
 
 namespace lodesman {
+namespace {
+
+constexpr Duration kShippedFixGap = std::chrono::seconds{15};  // a test compares it
+
+}  // namespace
 
 std::vector<Failsafe> failsafes() {
   const Duration trial = kArmedMemory + kBoxTrial_max;
@@ -19,8 +24,9 @@ std::vector<Failsafe> failsafes() {
        "helm `stale_attitude`, `no_way` `no_heading`, device `heading`"},
       {"estimate (`vehicle_state`)", max_age::kVehicleState,
        "the helm is neutral, nothing is planned", "helm `stale_state`, `no_way` `no_position`"},
-      {"position fix, where it is the source", max_age::kPositionFix,
-       "no estimate is made, and so the helm is neutral", "device `position`"},
+      {"believed fix, where fixes are the source (`estimator.fix_gap_max_s`)", kShippedFixGap,
+       "no estimate is made, and so the helm is neutral; before that the model bridges the gap",
+       "`position_trust`, device `position`"},
       {"sonar frame (`sonar_obstacles`, `tracks`)", max_age::kSonarFrame,
        "nothing new is planned: what was planned is sailed until its own age limit, then held",
        "plan reason and rung, device `sonar`"},

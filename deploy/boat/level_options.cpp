@@ -105,6 +105,7 @@ namespace {
       zones.number("margin_per_turning_radius", Range::between(0.0, 20.0));
   options.zones.least_margin_m = zones.number("least_margin_m", Range::between(0.0, 20.0));
   options.zones.doubt_sigmas = zones.number("doubt_sigmas", Range::between(0.0, 10.0));
+  options.zones.own_doubt_share = zones.number("own_doubt_share", Range::between(0.0, 1.0));
   options.zones.doubt_max_m = zones.number("doubt_max_m", Range::between(0.0, 20.0));
   options.zones.slow_share = zones.number("slow_share", Range::between(0.0, 1.0));
   const TomlTable pilot = configuration.table("pilot");
@@ -130,6 +131,61 @@ namespace {
   options.response.heading_gain_per_s =
       vehicle.number("heading_gain_per_s", Range::above(0.0, 100.0));
   return options;
+}
+
+[[nodiscard]] VehicleModelParameters read_vehicle_model(const TomlTable& vehicle) {
+  const auto positive = [&vehicle](std::string_view key, double most) {
+    return vehicle.number(key, Range::above(0.0, most));
+  };
+  const auto any = [&vehicle](std::string_view key, double most) {
+    return vehicle.number(key, Range::between(0.0, most));
+  };
+  VehicleModelParameters model;
+  model.mass_kg = positive("mass_kg", 1e6);
+  model.added_mass_surge_kg = any("added_mass_surge_kg", 1e6);
+  model.added_mass_sway_kg = any("added_mass_sway_kg", 1e6);
+  model.yaw_inertia_kg_m2 = positive("yaw_inertia_kg_m2", 1e7);
+  model.added_yaw_inertia_kg_m2 = any("added_yaw_inertia_kg_m2", 1e7);
+  model.surge_drag_n_s_per_m = positive("surge_drag_n_s_per_m", 1e6);
+  model.surge_drag_n_s2_per_m2 = any("surge_drag_n_s2_per_m2", 1e6);
+  model.sway_drag_n_s_per_m = positive("sway_drag_n_s_per_m", 1e6);
+  model.sway_drag_n_s2_per_m2 = any("sway_drag_n_s2_per_m2", 1e6);
+  model.yaw_drag_n_m_s = positive("yaw_drag_n_m_s", 1e7);
+  model.yaw_drag_n_m_s2 = any("yaw_drag_n_m_s2", 1e7);
+  model.turning_n_m_per_head_ref = any("turning_n_m_per_head_ref", 1e4);
+  return model;
+}
+
+[[nodiscard]] FixGateOptions read_fix_gate_options(const TomlTable& estimator) {
+  FixGateOptions gate;
+  gate.sigmas = estimator.number("gate_sigmas", Range::between(2.0, 10.0));
+  gate.speed_m_s = estimator.number("gate_speed_m_s", Range::above(0.0, 10.0));
+  gate.sigma_least_m = estimator.number("fix_sigma_least_m", Range::above(0.0, 10.0));
+  gate.sigma_unknown_m = estimator.number("fix_sigma_unknown_m", Range::above(0.0, 100.0));
+  gate.lasting = estimator.duration("refused_lasting_s", Range::between(0.5, 60.0));
+  gate.approach_m_s = estimator.number("approach_m_s", Range::above(0.0, 10.0));
+  gate.bridging = estimator.duration("fix_bridged_s", Range::between(0.5, 60.0));
+  gate.longest_gap = estimator.duration("fix_gap_max_s", Range::between(1.0, 120.0));
+  gate.frozen_way_m = estimator.number("fix_frozen_way_m", Range::above(0.0, 100.0));
+  return gate;
+}
+
+[[nodiscard]] PoseFilterOptions read_pose_filter_options(const TomlTable& configuration) {
+  const TomlTable estimator = configuration.table("estimator");
+  const auto noise = [&estimator](std::string_view key) {
+    return estimator.number(key, Range::above(0.0, 10.0));
+  };
+  PoseFilterOptions filter;
+  filter.vehicle = read_vehicle_model(configuration.table("vehicle"));
+  filter.surge_noise_m_s_per_sqrt_s = noise("surge_noise_m_s_per_sqrt_s");
+  filter.sway_noise_m_s_per_sqrt_s = noise("sway_noise_m_s_per_sqrt_s");
+  filter.yaw_noise_rad_s_per_sqrt_s = noise("yaw_noise_rad_s_per_sqrt_s");
+  filter.current_noise_m_s_per_sqrt_s = noise("current_noise_m_s_per_sqrt_s");
+  filter.current_sigma_m_s = noise("current_sigma_m_s");
+  filter.heading_sigma_rad = noise("heading_sigma_rad");
+  filter.yaw_rate_sigma_rad_s = noise("yaw_rate_sigma_rad_s");
+  filter.gate = read_fix_gate_options(estimator);
+  return filter;
 }
 
 }  // namespace
@@ -172,7 +228,8 @@ HighLevelOptions read_high_level_options(const TomlTable& configuration, const S
   options.estimator.current_time =
       estimator.duration("current_time_s", Range::between(0.0, 1000.0));
   options.estimator.antenna = read_place_aboard(configuration.table("mounting"), "antenna_m");
-  options.estimator.gps_correction = estimator.number("gps_correction", Range::above(0.0, 1.0));
+  options.estimator.filter = read_pose_filter_options(configuration);
+  options.estimator.filter.speeds = speeds;
   return options;
 }
 

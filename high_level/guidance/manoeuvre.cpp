@@ -187,7 +187,8 @@ void ManoeuvreChooser::foresee_hazards(Time now, const Tracks& tracks) noexcept 
       hazard.velocity_m_s = {track.velocity_x_m_s, track.velocity_y_m_s};
     }
     hazard.age_s = to_seconds(now - track.last_seen);
-    hazard.place_sigma_m = larger_sigma(track.place_xx_m2, track.place_xy_m2, track.place_yy_m2);
+    hazard.place_sigma_m = std::hypot(
+        larger_sigma(track.place_xx_m2, track.place_xy_m2, track.place_yy_m2), own_.place_sigma_m);
     enclose(track.shape, hazard.centre, hazard.around_m);
     fastest_m_s = std::max(fastest_m_s, hazard.velocity_m_s.norm());
   }

@@ -31,6 +31,7 @@ struct OwnMotion {
   double heading_rad = 0.0;
   double surge_m_s = 0.0;                                 // through the water
   Eigen::Vector2d current_m_s = Eigen::Vector2d::Zero();  // [world] of the water
+  double place_sigma_m = 0.0;  // of p_W against the tracks, one standard deviation
 };
 
 struct ManoeuvreOptions {

@@ -31,6 +31,14 @@ constexpr double kDrifted_m = 2.5;   // ... and so far from it no more
   return centre;
 }
 
+// Along the axis that it is the least known on.
+[[nodiscard]] double largest_sigma_m(const VehicleState& state) noexcept {
+  const double middle_m2 = 0.5 * (state.position_xx_m2 + state.position_yy_m2);
+  const double apart_m2 =
+      std::hypot(0.5 * (state.position_xx_m2 - state.position_yy_m2), state.position_xy_m2);
+  return std::sqrt(middle_m2 + apart_m2);
+}
+
 }  // namespace
 
 Pilot::Pilot(const PilotOptions& options)
@@ -62,7 +70,8 @@ OwnMotion Pilot::when_it_takes_effect(Time now, const VehicleState& state) const
   OwnMotion own{{state.x_m, state.y_m},
                 state.heading_rad,
                 state.surge_m_s,
-                {state.current_x_m_s, state.current_y_m_s}};
+                {state.current_x_m_s, state.current_y_m_s},
+                options_.zones.own_doubt_share * largest_sigma_m(state)};
   const double ahead_s = to_seconds(now - state.valid_at + options_.latency);
   const Vec ahead{std::sin(own.heading_rad), std::cos(own.heading_rad)};
   own.p_W += ahead_s * (own.surge_m_s * ahead + own.current_m_s);
@@ -76,10 +85,12 @@ void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const
     best_.reset();  // another waypoint, or a place to hold: it stood for the last goal
     best_for_W_ = goal.xy_m;
   }
-  own_W_ = when_it_takes_effect(now, state).p_W;
+  const OwnMotion own = when_it_takes_effect(now, state);
+  own_W_ = own.p_W;
   request.space = PathSpace::kWorld;
   request.side_gain_m = options_.side_gain_m;
-  make_zones(options_.zones, tracks, now, own_W_, options_.response.speed_max_m_s, request);
+  make_zones(options_.zones, tracks, now, own_W_, options_.response.speed_max_m_s, request,
+             own.place_sigma_m);
   Vec start = own_W_;
   Vec end = goal.xy_m;
   escaping_ = false;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "high_level/guidance/replanner.h"
 
-#include <algorithm>
 #include <chrono>
 
 #include "high_level/guidance/waypoints.h"
@@ -16,43 +15,7 @@ constexpr Duration kEarly_max = std::chrono::milliseconds{5};
   return {{{state.x_m, state.y_m}}, Heading::clockwise_from_y_rad(state.heading_rad)};
 }
 
-[[nodiscard]] VehiclePose between(const VehicleState& a, const VehicleState& b, Time at) noexcept {
-  const double share = to_seconds(at - a.valid_at) / to_seconds(b.valid_at - a.valid_at);
-  const Heading from = Heading::clockwise_from_y_rad(a.heading_rad);
-  const double turn = from.turn_to_rad(Heading::clockwise_from_y_rad(b.heading_rad));
-  return {{{a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m)}},
-          Heading::clockwise_from_y_rad(a.heading_rad + share * turn)};
-}
-
 }  // namespace
-
-void PoseHistory::add(const VehicleState& state) noexcept {
-  if (count_ > 0 && state.valid_at <= ring_[(count_ - 1) % kSize].valid_at) {
-    return;
-  }
-  ring_[count_ % kSize] = state;
-  ++count_;
-}
-
-std::optional<VehiclePose> PoseHistory::at(Time at) const noexcept {
-  constexpr Duration kAheadOfNewest = std::chrono::milliseconds{100};
-  if (count_ == 0) {
-    return std::nullopt;
-  }
-  const VehicleState& newest = ring_[(count_ - 1) % kSize];
-  if (at >= newest.valid_at) {
-    return at - newest.valid_at <= kAheadOfNewest ? std::optional{pose_of(newest)} : std::nullopt;
-  }
-  const std::size_t remembered = std::min(count_, kSize);
-  for (std::size_t back = 1; back < remembered; ++back) {
-    const VehicleState& later = ring_[(count_ - back) % kSize];
-    const VehicleState& earlier = ring_[(count_ - back - 1) % kSize];
-    if (at >= earlier.valid_at) {
-      return between(earlier, later, at);
-    }
-  }
-  return std::nullopt;
-}
 
 Replanner::Replanner(const ReplannerOptions& options, std::uint64_t first_id)
     : options_{options}, next_id_{first_id} {

@@ -12,6 +12,7 @@
 #include "high_level/guidance/pilot.h"
 #include "mid_level/base/frames.h"
 #include "mid_level/base/time.h"
+#include "mid_level/geometry/pose_history.h"
 #include "mid_level/messages/command.h"
 #include "mid_level/messages/path.h"
 #include "mid_level/messages/vehicle.h"
@@ -25,22 +26,6 @@ struct ReplannerOptions {
   double waypoint_interval_m = 0.0;   // [m] the paper's C
   Duration previous_path_max_age{};   // previous waypoints are dropped when their frame is older
   std::optional<PilotOptions> pilot;  // plans in the world from tracks; empty: in the sonar view
-};
-
-// The poses of the last seconds, so that a sonar frame can be put where the vehicle was when it
-// was captured.
-class PoseHistory {
- public:
-  void add(const VehicleState& state) noexcept;
-  // Interpolated; empty when `at` lies outside what is remembered (but for 0.1 s after the newest,
-  // which counts as the newest).
-  [[nodiscard]] std::optional<VehiclePose> at(Time at) const noexcept;
-
- private:
-  static constexpr std::size_t kSize =
-      160;  // two seconds and more, with a step of the planner every 14 ms
-  std::array<VehicleState, kSize> ring_{};
-  std::size_t count_ = 0;  // ever added
 };
 
 // What there is no plan without.

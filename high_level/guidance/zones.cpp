@@ -60,7 +60,7 @@ void put_zone(Obstacle& shape, double clear_m) noexcept {
 }
 
 void make_zones(const ZoneOptions& options, const Tracks& tracks, Time now, const Vec& from_W,
-                double speed_m_s, PathRequest& request) noexcept {
+                double speed_m_s, PathRequest& request, double own_sigma_m) noexcept {
   request.zone_count = 0;
   for (std::uint32_t i = 0; i < std::min<std::uint32_t>(tracks.count, kMaxObstacles); ++i) {
     const Track& track = tracks.tracks[i];
@@ -78,7 +78,8 @@ void make_zones(const ZoneOptions& options, const Tracks& tracks, Time now, cons
     zone.shape = translated(here, arrival_s * velocity.x(), arrival_s * velocity.y());
     const double variance_m2 =
         std::max(track.place_xx_m2, track.place_yy_m2) +
-        age_s * age_s * std::max(track.velocity_xx_m2_s2, track.velocity_yy_m2_s2);
+        age_s * age_s * std::max(track.velocity_xx_m2_s2, track.velocity_yy_m2_s2) +
+        own_sigma_m * own_sigma_m;
     const double doubt_m =
         std::min(options.doubt_max_m, options.doubt_sigmas * std::sqrt(variance_m2));
     const double clear_m = sure_zone_m(options, speed_m_s) + doubt_m;

@@ -21,6 +21,9 @@ struct ZoneOptions {
   double least_margin_m = 0.0;             // [m] in water that is too narrow for more
   double doubt_sigmas = 0.0;  // [-] standard deviations of a track's place that are added ...
   double doubt_max_m = 0.0;   // [m] ... up to this
+  // Of the own place's standard deviation, what comes on top of a track's: 1 where tracks are
+  // places in the world, 0 where they were placed from the own estimate and err with it.
+  double own_doubt_share = 0.0;  // [-] [0, 1]
   // A track that moves faster than this share of the planned speed has no zone: where it will be
   // when the vehicle is there is the manoeuvres' to foresee.
   double slow_share = 0.0;  // [-]
@@ -33,10 +36,11 @@ struct ZoneOptions {
 void put_zone(Obstacle& shape, double clear_m) noexcept;
 
 // Makes the request's zones, each placed where its obstacle will be when a vehicle at `from` with
-// that speed can be there. protection_first/second_m are the full zone, give_m what of it may be
-// given up.
+// that speed can be there. own_sigma_m: of the own place, as far as it counts. protection_first/
+// second_m are the full zone, give_m what of it may be given up.
 void make_zones(const ZoneOptions& options, const Tracks& tracks, Time now,
-                const Eigen::Vector2d& from_W, double speed_m_s, PathRequest& request) noexcept;
+                const Eigen::Vector2d& from_W, double speed_m_s, PathRequest& request,
+                double own_sigma_m = 0.0) noexcept;
 
 // From a point to the nearest zone's edge, negative inside; infinity without zones.
 [[nodiscard]] double zone_clearance_m(const PathRequest& request,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "high_level/tasks/boat_status.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "high_level/tasks/thrust_desk.h"
@@ -70,6 +71,9 @@ void BoatStatus::add_place(ordered_json& reply, Time now) {
     reply["position_m"] = {state->value.x_m, state->value.y_m};
     reply["heading_deg"] = compass_deg(state->value.heading_rad);
     reply["state_age_s"] = to_seconds(now - state->stamp);
+    reply["position_trust"] = to_string(state->value.trust);
+    reply["position_sigma_m"] =
+        std::sqrt(state->value.position_xx_m2 + state->value.position_yy_m2);
   }
   if (const auto* plan = plan_.latest(); plan != nullptr) {
     reply["plan"] = {{"id", plan->value.id},

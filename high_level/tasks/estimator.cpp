@@ -11,6 +11,7 @@ EstimatorTask::EstimatorTask(Blackboard& board, Role role, const EstimatorOption
       dead_reckoning_{options.dead_reckoning, options.start},
       surge_{options.surge_lag},
       drift_{options.current_time},
+      filter_{options.filter},
       attitude_{board.attitude},
       position_fix_{board.position_fix},
       world_truth_{board.world_truth},
@@ -22,9 +23,34 @@ void EstimatorTask::step(Time now) noexcept {
   if (attitude == nullptr) {
     return;
   }
-  const Heading heading = Heading::clockwise_from_y_rad(attitude->value.heading_rad);
+  // What was not applied did not happen.
   const auto* thrust = thrust_applied_.fresh(now, max_age::kThrustApplied);
-  const int surge_ref = thrust != nullptr ? thrust->value.surge_ref : 0;
+  const ThrustApplied applied = thrust != nullptr ? thrust->value : ThrustApplied{};
+  if (options_.source == PositionSource::kGps) {
+    step_filter(now, attitude->value, applied);
+  } else {
+    step_reckoning(now, attitude->value, applied.surge_ref);
+  }
+}
+
+void EstimatorTask::step_filter(Time now, const Attitude& attitude,
+                                const ThrustApplied& applied) noexcept {
+  filter_.advance(now, applied.surge_ref, applied.head_ref, attitude);
+  const Heading heading = Heading::clockwise_from_y_rad(attitude.heading_rad);
+  while (const auto* fix = position_fix_.next()) {
+    const PositionFix& f = fix->value;
+    if (now - f.measured <= max_age::kPositionFix) {
+      const VehiclePose antenna{local_frame_.to_world({f.latitude_deg, f.longitude_deg}), heading};
+      (void)filter_.fix(antenna.to_world({-options_.antenna.xy_m}), f.sigma_m, f.measured);
+    }
+  }
+  if (filter_.knows_position()) {
+    publish(filter_.state(), now);
+  }
+}
+
+void EstimatorTask::step_reckoning(Time now, const Attitude& attitude, int surge_ref) noexcept {
+  const Heading heading = Heading::clockwise_from_y_rad(attitude.heading_rad);
   const double surge_m_s = surge_.follow(now, dead_reckoning_.speed_m_s(surge_ref));
   if (!update_position(now, heading, surge_ref)) {
     return;
@@ -36,6 +62,11 @@ void EstimatorTask::step(Time now) noexcept {
   state.y_m = position.xy_m.y();
   state.heading_rad = heading.rad();
   state.surge_m_s = surge_m_s;
+  state.yaw_rate_rad_s = attitude.yaw_rate_rad_s;
+  state.odometry_x_m = state.x_m;
+  state.odometry_y_m = state.y_m;
+  state.trust = options_.source == PositionSource::kDeadReckoning ? PositionTrust::kReckoned
+                                                                  : PositionTrust::kTracked;
   if (options_.source != PositionSource::kDeadReckoning &&
       options_.current_time > Duration::zero()) {
     const Eigen::Vector2d current_m_s = drift_.follow(
@@ -44,6 +75,10 @@ void EstimatorTask::step(Time now) noexcept {
     state.current_x_m_s = current_m_s.x();
     state.current_y_m_s = current_m_s.y();
   }
+  publish(state, now);
+}
+
+void EstimatorTask::publish(const VehicleState& state, Time now) noexcept {
   if (sane(state)) {
     states_.publish(state, now);
   } else {
@@ -55,7 +90,7 @@ void EstimatorTask::begin_anew() noexcept {
   dead_reckoning_ = DeadReckoning{options_.dead_reckoning, options_.start};
   surge_ = Lag{options_.surge_lag};
   drift_ = DriftEstimate{options_.current_time};
-  has_fix_ = false;
+  filter_.begin_anew();
 }
 
 bool EstimatorTask::update_position(Time now, Heading heading, int surge_ref) noexcept {
@@ -68,21 +103,6 @@ bool EstimatorTask::update_position(Time now, Heading heading, int surge_ref) no
     return true;
   }
   dead_reckoning_.advance(now, surge_ref, heading);
-  if (options_.source == PositionSource::kDeadReckoning) {
-    return true;
-  }
-  const auto* fix = position_fix_.fresh(now, max_age::kPositionFix);
-  if (fix == nullptr) {
-    return false;
-  }
-  if (fix->sequence != used_fix_) {
-    used_fix_ = fix->sequence;
-    const GeoPoint geodetic{fix->value.latitude_deg, fix->value.longitude_deg};
-    const VehiclePose antenna{local_frame_.to_world(geodetic), heading};
-    const WorldPoint at = antenna.to_world({-options_.antenna.xy_m});
-    dead_reckoning_.correct(at, has_fix_ ? options_.gps_correction : 1.0);
-    has_fix_ = true;
-  }
   return true;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The estimator task: where the vehicle is, from what its source of position gives and the AHRS's
-// heading. It publishes nothing while its inputs are stale, and begins anew where what comes out is
-// no estimate.
+// The estimator task: where the vehicle is, from what its source of position gives, the AHRS's
+// heading and the thrust that was applied. Source `gps` is the pose filter; `dead_reckoning` is eqs
+// 15-25 of the paper, and `truth` the simulated world's word. It publishes nothing while its inputs
+// are stale, and begins anew where what comes out is no estimate.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include "high_level/estimate/dead_reckoning.h"
 #include "high_level/estimate/drift.h"
 #include "high_level/estimate/lag.h"
+#include "high_level/estimate/pose_filter.h"
 #include "mid_level/base/geodesy.h"
 #include "mid_level/runtime/task.h"
 
@@ -17,12 +19,12 @@ namespace lodesman {
 struct EstimatorOptions {
   PositionSource source = PositionSource::kDeadReckoning;
   DeadReckoningOptions dead_reckoning;
-  Duration surge_lag{};         // [0, 100 s] of the speed behind SurgeRef; the paper knows none
-  Duration current_time{};      // [0, 1000 s] in which a current is learnt; 0: none is looked for
-  double gps_correction = 0.0;  // [-] (0, 1] share of the way to each fix
-  WorldPoint start;             // where dead reckoning starts
-  GeoPoint origin;              // of the world frame
-  VehiclePoint antenna;         // of the receiver
+  Duration surge_lag{};      // [0, 100 s] of the speed behind SurgeRef; the paper knows none
+  Duration current_time{};   // [0, 1000 s] in which a current is learnt; 0: none is looked for
+  PoseFilterOptions filter;  // of source `gps`
+  WorldPoint start;          // where dead reckoning starts
+  GeoPoint origin;           // of the world frame
+  VehiclePoint antenna;      // of the receiver
 };
 
 class EstimatorTask final : public Task {
@@ -36,21 +38,25 @@ class EstimatorTask final : public Task {
  private:
   // What is reckoned with, at its beginning.
   void begin_anew() noexcept;
+  // Source `gps`.
+  void step_filter(Time now, const Attitude& attitude, const ThrustApplied& applied) noexcept;
+  // The others.
+  void step_reckoning(Time now, const Attitude& attitude, int surge_ref) noexcept;
   // False when the source is silent.
   [[nodiscard]] bool update_position(Time now, Heading heading, int surge_ref) noexcept;
+  void publish(const VehicleState& state, Time now) noexcept;
 
   EstimatorOptions options_;
   LocalFrame local_frame_;
   DeadReckoning dead_reckoning_;
   Lag surge_;
   DriftEstimate drift_;
+  PoseFilter filter_;
   Reader<Attitude> attitude_;
   Reader<PositionFix> position_fix_;
   Reader<WorldTruth> world_truth_;
   Reader<ThrustApplied> thrust_applied_;
   Writer<VehicleState> states_;
-  std::uint64_t used_fix_ = 0;
-  bool has_fix_ = false;
 };
 
 }  // namespace lodesman

@@ -21,6 +21,7 @@ DeltaTTask::DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaT
       segmenter_{options_.segmentation},
       profile_detector_{options_.segmentation},
       vehicle_state_{board.vehicle_state},
+      every_state_{board.vehicle_state},
       mission_status_{board.mission_status},
       pings_{writer_of(board, board.sonar_ping, role)},
       obstacles_{writer_of(board, board.sonar_obstacles, role)},
@@ -32,6 +33,9 @@ DeltaTTask::DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaT
 }
 
 void DeltaTTask::step(Time now) noexcept {
+  while (const auto* state = every_state_.next()) {
+    poses_.add(state->value);
+  }
   holds_ping_ = holds_ping_ || take_ping(now);
   device_.publish(now);
   if (holds_ping_ && !awaits_estimate(now)) {
@@ -78,14 +82,15 @@ void DeltaTTask::publish_what_it_shows(Time now) noexcept {
   }
 }
 
+// By the odometry: in the world an estimate may have moved between the ping and now, by a fix.
 bool DeltaTTask::place_frame(Time now) noexcept {
-  const auto* state = vehicle_state_.fresh(now, max_age::kVehicleState);
-  if (state == nullptr) {
+  const auto then = vehicle_state_.fresh(now, max_age::kVehicleState) != nullptr
+                        ? poses_.by_odometry_at(ping_->captured)
+                        : std::nullopt;
+  if (!then) {
     return false;
   }
-  const VehicleState& at = state->value;
-  tracks_of_frame(*seen_, {{{at.x_m, at.y_m}}, Heading::clockwise_from_y_rad(at.heading_rad)},
-                  *known_);
+  tracks_of_frame(*seen_, *then, *known_);
   return true;
 }
 

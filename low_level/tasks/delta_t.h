@@ -16,6 +16,7 @@
 #include "low_level/sonar/track_oracle.h"
 #include "low_level/tasks/device_report.h"
 #include "mid_level/geometry/moving_obstacle.h"
+#include "mid_level/geometry/pose_history.h"
 #include "mid_level/runtime/task.h"
 
 namespace lodesman {
@@ -45,7 +46,8 @@ class DeltaTTask final : public Task {
   void publish_what_it_shows(Time now) noexcept;
   // False when the estimate is stale: then nothing is known of where the obstacles are.
   [[nodiscard]] bool see_known_scene(Time now) noexcept;
-  // Tracks of what was just seen, at the newest estimate; false when that is stale.
+  // Tracks of what was just seen, by the odometry at the time of the ping; false when the estimate
+  // is stale or that time is not remembered.
   [[nodiscard]] bool place_frame(Time now) noexcept;
 
   ImagingSonar& sonar_;
@@ -53,6 +55,8 @@ class DeltaTTask final : public Task {
   Segmenter segmenter_;
   ProfileDetector profile_detector_;
   Reader<VehicleState> vehicle_state_;
+  Reader<VehicleState> every_state_;  // the same, one after the other
+  PoseHistory poses_;
   Reader<MissionStatus> mission_status_;
   Writer<SonarPing> pings_;
   Writer<SonarObstacles> obstacles_;

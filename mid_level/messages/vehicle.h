@@ -81,19 +81,58 @@ struct PositionFix {
 // What the estimator takes its position from.
 enum class PositionSource : std::uint8_t { kTruth, kGps, kDeadReckoning };
 
-// The estimate that everything steers by. Written by the estimator task at 20 Hz, and only while
-// its inputs are fresh; read by DeltaT (known obstacles), the planner, the controller.
+// What the position of an estimate rests on.
+enum class PositionTrust : std::uint8_t {
+  kLost,         // no fix was believed for too long
+  kTracked,      // on fixes that are believed
+  kBridged,      // on the model: the last believed fix is some time ago
+  kApproaching,  // fixes that were refused go on to agree: it moves towards them, no faster than
+                 // set
+  kFrozen,       // on the model: the receiver repeats itself though the boat is under way
+  kReckoned,     // on the model alone, as is the source `dead_reckoning`
+};
+[[nodiscard]] constexpr auto enumerators(PositionTrust) noexcept {
+  return enumerators_to<PositionTrust::kReckoned>("lost", "tracked", "bridged", "approaching",
+                                                  "frozen", "reckoned");
+}
+
+// The estimate that everything steers by. Written by the estimator task at 20 Hz and more, and only
+// while its inputs are fresh; read by DeltaT, the planner, the controller.
+//
+// Two poses with one heading. The world pose is the best estimate and moves by a step where a fix
+// comes: the pilot, the controller, the mission and displays read it. The odometry pose is how the
+// boat has moved, in a frame that drifts off the world's and never jumps: what is seen at different
+// times is put side by side in it (DeltaT places echoes by it). Where the source of position is
+// another than `gps` the two are one.
 struct VehicleState {
-  Time valid_at{};           // [ns] the time this pose belongs to
-  double x_m = 0.0;          // [m] [world] east
-  double y_m = 0.0;          // [m] [world] north
-  double heading_rad = 0.0;  // [rad] [-pi, pi] clockwise from north
-  double surge_m_s = 0.0;    // [m/s] speed ahead through the water, estimated
+  Time valid_at{};              // [ns] the time this pose belongs to
+  double x_m = 0.0;             // [m] [world] east
+  double y_m = 0.0;             // [m] [world] north
+  double heading_rad = 0.0;     // [rad] [-pi, pi] clockwise from north
+  double surge_m_s = 0.0;       // [m/s] speed ahead through the water, estimated
+  double sway_m_s = 0.0;        // [m/s] to starboard through the water; 0 where none is estimated
+  double yaw_rate_rad_s = 0.0;  // [rad/s] clockwise positive
   // Of the water, estimated; 0 where nothing is measured that could tell it.
   double current_x_m_s = 0.0;  // [m/s] [world]
   double current_y_m_s = 0.0;  // [m/s] [world]
+  // Covariances; all 0 where none is kept (sources `truth` and `dead_reckoning`).
+  double position_xx_m2 = 0.0;         // [m^2] >= 0
+  double position_xy_m2 = 0.0;         // [m^2]
+  double position_yy_m2 = 0.0;         // [m^2] >= 0
+  double heading_variance_rad2 = 0.0;  // [rad^2] >= 0
+  double current_xx_m2_s2 = 0.0;       // [m^2/s^2] >= 0
+  double current_xy_m2_s2 = 0.0;       // [m^2/s^2]
+  double current_yy_m2_s2 = 0.0;       // [m^2/s^2] >= 0
+  double odometry_x_m = 0.0;           // [m] [odometry] as the world's x, but for the drift
+  double odometry_y_m = 0.0;           // [m] [odometry]
+  PositionTrust trust = PositionTrust::kTracked;
+  Time fix_measured{};  // [ns] of the last fix that was believed; 0: none
 
   [[nodiscard]] Time measured_at() const noexcept { return valid_at; }
+  // What takes a point of the odometry frame to the world: both have one heading, so that it is a
+  // shift. It takes the whole of a fix's correction.
+  [[nodiscard]] double world_from_odometry_x_m() const noexcept { return x_m - odometry_x_m; }
+  [[nodiscard]] double world_from_odometry_y_m() const noexcept { return y_m - odometry_y_m; }
 
   static constexpr auto fields() noexcept {
     using V = VehicleState;
@@ -102,8 +141,21 @@ struct VehicleState {
                       field("y_m", &V::y_m),
                       field("heading_rad", &V::heading_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
                       field("surge_m_s", &V::surge_m_s).within(-1e3, 1e3),
+                      field("sway_m_s", &V::sway_m_s).within(-1e3, 1e3),
+                      field("yaw_rate_rad_s", &V::yaw_rate_rad_s).within(-100.0, 100.0),
                       field("current_x_m_s", &V::current_x_m_s).within(-1e3, 1e3),
-                      field("current_y_m_s", &V::current_y_m_s).within(-1e3, 1e3)};
+                      field("current_y_m_s", &V::current_y_m_s).within(-1e3, 1e3),
+                      field("position_xx_m2", &V::position_xx_m2).within(0.0, 1e9),
+                      field("position_xy_m2", &V::position_xy_m2),
+                      field("position_yy_m2", &V::position_yy_m2).within(0.0, 1e9),
+                      field("heading_variance_rad2", &V::heading_variance_rad2).within(0.0, 100.0),
+                      field("current_xx_m2_s2", &V::current_xx_m2_s2).within(0.0, 1e6),
+                      field("current_xy_m2_s2", &V::current_xy_m2_s2),
+                      field("current_yy_m2_s2", &V::current_yy_m2_s2).within(0.0, 1e6),
+                      field("odometry_x_m", &V::odometry_x_m),
+                      field("odometry_y_m", &V::odometry_y_m),
+                      field("trust", &V::trust),
+                      field("fix_measured", &V::fix_measured)};
   }
 };
 

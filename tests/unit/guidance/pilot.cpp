@@ -89,6 +89,23 @@ TEST_CASE("pilot: it plans from where the vehicle will be when the plan takes ef
   CHECK(bridge.request->start_y_m == Approx(0.0).margin(1e-9));
 }
 
+TEST_CASE("pilot: doubt of the own place widens the zones by the share that is set",
+          "[high_level][guidance]") {
+  const auto zone_m = [](double share, double sigma_m) {
+    PilotOptions options = pilot_options();
+    options.zones.own_doubt_share = share;
+    Bridge bridge;
+    bridge.pilot = std::make_unique<Pilot>(options);
+    VehicleState state = state_at(0, 0);
+    state.position_xx_m2 = sigma_m * sigma_m;  // along one axis alone
+    bridge.ask(tracks_of({disc_track(1, 0.0, 15.0)}), state, {0, 30});
+    return bridge.request->zones[0].shape.protection_first_m;
+  };
+  CHECK(zone_m(0.0, 0.3) == Approx(zone_m(1.0, 0.0)));
+  CHECK(zone_m(1.0, 0.3) == Approx(zone_m(1.0, 0.0) + 0.3 * pilot_options().zones.doubt_sigmas));
+  CHECK(zone_m(0.5, 0.3) == Approx(zone_m(1.0, 0.15)));
+}
+
 TEST_CASE("pilot: the side that a path took is asked for again, until a new start",
           "[high_level][guidance]") {
   const Tracks tracks = tracks_of({disc_track(7, 0, 12)});

@@ -165,4 +165,20 @@ TEST_CASE("zones: of the free points round a goal the one nearest to us is taken
   CHECK_FALSE(nearest_free(*request_with({round_zone(0, 0, 0.5, 20.0)}), {0, 0}, {0, -30}));
 }
 
+TEST_CASE("zones: doubt of the own place widens them as that of a track does",
+          "[high_level][guidance]") {
+  Track doubtful = disc_track(1, 0.0, 10.0);
+  doubtful.place_xx_m2 = doubtful.place_yy_m2 = 0.16;
+  const auto zone_of = [](const Track& track, double own_sigma_m) {
+    auto request = std::make_unique<PathRequest>();
+    make_zones(default_zones(), tracks_of({track}), at_s(0), {0.0, 0.0}, 0.5, *request,
+               own_sigma_m);
+    return request->zones[0].shape.protection_first_m;
+  };
+  const Track sure = disc_track(1, 0.0, 10.0);
+  CHECK(zone_of(sure, 0.4) > zone_of(sure, 0.0) + 0.5);
+  CHECK(zone_of(sure, 0.4) == Approx(zone_of(doubtful, 0.0)));
+  CHECK(zone_of(sure, 50.0) == Approx(zone_of(sure, 0.0) + default_zones().doubt_max_m));
+}
+
 }  // namespace lodesman::testing

@@ -95,6 +95,65 @@ TEST_CASE("delta_t task: what is seen has a place in the world only where the es
   CHECK(all_of(delta_t.tracks).empty());  // it is stale
 }
 
+// One ping with a single echo ahead, sent so long before it is read.
+class EchoSonar final : public ImagingSonar {
+ public:
+  explicit EchoSonar(Duration age) : age_{age} {}
+  [[nodiscard]] ReadStatus poll(Time now, SonarPing& out) noexcept override {
+    if (given_) {
+      return ReadStatus::kNothingNew;
+    }
+    given_ = true;
+    out.number = 1;
+    out.captured = now - age_;
+    out.range_m = 30.0;
+    out.sector_rad = 2.0;
+    out.beams = 64;
+    out.bins = 150;
+    out.echo_count = 64 * 150;
+    out.echo.fill(0);
+    for (std::uint32_t beam = 30; beam < 34; ++beam) {
+      for (std::uint32_t bin = 70; bin < 75; ++bin) {
+        out.echo[beam * out.bins + bin] = 255;
+      }
+    }
+    return ReadStatus::kFresh;
+  }
+
+ private:
+  Duration age_;
+  bool given_ = false;
+};
+
+// How far north the echo is placed: sailed at 1 m/s, and a fix leapt by 5 m at the very end.
+[[nodiscard]] double echo_placed_at_m(Duration age, double leap_m) {
+  auto board = std::make_unique<Blackboard>();
+  EchoSonar sonar{age};
+  DeltaTTask task{*board, Role::kLow, sonar, shipped_options()};
+  Writer<VehicleState> states{board->vehicle_state, Role::kHigh, "vehicle_state"};
+  Reader<Tracks> tracks{board->tracks};
+  for (int i = 0; i <= 20; ++i) {
+    VehicleState here;
+    here.valid_at = kStart + i * milliseconds{20};
+    here.odometry_y_m = 0.02 * i;
+    here.y_m = here.odometry_y_m + (i == 20 ? leap_m : 0.0);
+    states.publish(here, here.valid_at);
+  }
+  task.step(kStart + milliseconds{400});
+  const auto placed = all_of(tracks);
+  REQUIRE(placed.size() == 1);
+  REQUIRE(placed.front().count == 1);
+  return placed.front().tracks[0].shape.centre_y_m;
+}
+
+TEST_CASE("delta_t task: an echo is placed by the odometry at its own time", "[low_level][tasks]") {
+  const double at_once_m = echo_placed_at_m(Duration{}, 0.0);
+  CHECK(at_once_m > 13.0);
+  CHECK(echo_placed_at_m(milliseconds{300}, 0.0) == Approx(at_once_m - 0.3));
+  // The newest estimate says where the world is, the odometry how far the boat has gone since.
+  CHECK(echo_placed_at_m(milliseconds{300}, 5.0) == Approx(at_once_m - 0.3 + 5.0));
+}
+
 TEST_CASE("delta_t task: a known scene is drawn at a fresh estimate or not at all",
           "[low_level][tasks]") {
   DeltaT delta_t{with_known_scene()};

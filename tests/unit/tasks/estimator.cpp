@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/support/catch.h"
+#include "tests/unit/estimate/support.h"
 #include "tests/unit/tasks/support.h"
 
 namespace lodesman::testing {
@@ -13,7 +14,7 @@ namespace {
   EstimatorOptions options;
   options.source = source;
   options.dead_reckoning = {milliseconds{200}, SpeedTable::proportional(0.01375)};
-  options.gps_correction = 1.0;
+  options.filter = filter_options();
   options.current_time = seconds{30};
   options.origin = {35.0, 139.0};
   return options;
@@ -82,13 +83,51 @@ TEST_CASE("estimator task: without a fresh position it publishes nothing", "[hig
     estimator.head(0.5, kStart);
     CHECK_FALSE(estimator.after_step(kStart));
   }
+}
+
+TEST_CASE("G5: a gap between fixes is bridged as long as is set, and no longer",
+          "[high_level][tasks]") {
   Estimator estimator{PositionSource::kGps};
-  estimator.head(0.5, kStart);
+  const Duration bridged = filter_options().gate.longest_gap;
+  double doubt_m2 = 0.0;
   estimator.fix(35.0, kStart);
-  CHECK(estimator.after_step(kStart));
-  const Time late = kStart + max_age::kPositionFix + Duration{1};
+  for (Time now = kStart; now <= kStart + bridged; now += milliseconds{50}) {
+    estimator.head(0.5, now);
+    const auto state = estimator.after_step(now);
+    REQUIRE(state);
+    CHECK(state->fix_measured == kStart);
+    doubt_m2 = state->position_xx_m2;
+  }
+  CHECK(doubt_m2 > 1.5);  // the fix's alone is 1
+  const Time late = kStart + bridged + milliseconds{50};
   estimator.head(0.5, late);
   CHECK_FALSE(estimator.after_step(late));
+}
+
+TEST_CASE("estimator task: with fixes too it reckons with thrust that was applied alone",
+          "[high_level][tasks]") {
+  Estimator estimator{PositionSource::kGps};
+  const auto gone_m = [&](Time from, bool thrust_is_applied) {
+    double begin_m = 0.0;
+    double y_m = 0.0;
+    for (Time now = from; now < from + seconds{10}; now += milliseconds{50}) {
+      estimator.head(0.0, now);
+      if (now == from) {
+        estimator.fix(35.0, now);
+      }
+      if (thrust_is_applied) {
+        estimator.drive(57, now);
+      }
+      const auto state = estimator.after_step(now);
+      REQUIRE(state);
+      begin_m = now == from ? state->y_m : begin_m;
+      y_m = state->y_m;
+      CHECK(std::abs(state->world_from_odometry_y_m()) < 1.0);
+    }
+    return y_m - begin_m;
+  };
+  CHECK(std::abs(gone_m(kStart, false)) < 0.1);
+  CHECK(gone_m(kStart + seconds{10}, true) > 4.0);
 }
 
 TEST_CASE("estimator task: it reckons with thrust that is applied and not with what is stale",
