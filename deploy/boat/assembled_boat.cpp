@@ -23,6 +23,12 @@ void require_sound_vessel(const BoatConfig& config) {
                    "is real, and the simulated vessel is moved by simulated thrust: set "
                    "simulation.vessel to \"estimate\"");
     }
+  } else if (config.simulation.vessel == SimulatedVessel::kBench) {
+    if (const char* simulated = simulated_device(config.devices); simulated != nullptr) {
+      table.refuse(simulated,
+                   "is simulated, and the world is the bench's: set simulation.vessel to "
+                   "\"thrust\" or \"estimate\"");
+    }
   } else if (is_simulated_address(config.devices.heading) ||
              is_simulated_address(config.devices.position)) {
     config.document.root()
@@ -74,7 +80,7 @@ std::optional<Scenario> simulated_scenario(const BoatConfig& config) {
   const TomlTable table = config.document.root().table("simulation");
   const char* simulated = simulated_device(config.devices);
   const std::string& name = config.simulation.scenario;
-  if (simulated == nullptr) {
+  if (simulated == nullptr && config.simulation.vessel != SimulatedVessel::kBench) {
     if (!name.empty()) {
       table.refuse("scenario", "no device is simulated: there is no world for it");
     }
@@ -84,8 +90,10 @@ std::optional<Scenario> simulated_scenario(const BoatConfig& config) {
     return std::nullopt;
   }
   if (name.empty()) {
-    table.refuse("scenario", std::string{"devices."} + simulated +
-                                 " is simulated: give the scenario of its world");
+    table.refuse("scenario", simulated == nullptr
+                                 ? "the vessel is on the bench: give the scenario of its world"
+                                 : std::string{"devices."} + simulated +
+                                       " is simulated: give the scenario of its world");
   }
   return load_named_scenario(name, config.speeds);
 }
@@ -101,12 +109,11 @@ void require_sound(const BoatConfig& config, const Scenario* scenario) {
   if (scenario != nullptr) {
     require_faults(config, *scenario);
   }
-  require_drivers(config);
 }
 
 struct AssembledBoat::Impl {
   Impl(Blackboard& board, const BoatConfig& config, const Scenario* scenario) {
-    if (scenario != nullptr) {
+    if (scenario != nullptr && config.simulation.vessel != SimulatedVessel::kBench) {
       link = std::make_unique<SimLink>();
       world.emplace(*scenario, load_hull(config.simulation.hull), board, *link, moved_by(config));
       looped.emplace(*world, board, *link, scenario->faults);

@@ -45,6 +45,7 @@ struct DeviceAddresses {
 enum class SimulatedVessel : std::uint8_t {
   kThrust,    // what its simulated thrusters do
   kEstimate,  // it is where the real boat takes itself to be
+  kBench,     // it is another program's, behind devices that are real to this one
 };
 
 struct SimulationSettings {

@@ -2,8 +2,11 @@
 #include "deploy/boat/device_bench.h"
 
 #include "drivers/stream/make_line.h"
+#include "drivers/stream/udp_socket.h"
 #include "hal_sim/emulators/device_port.h"
 #include "hal_sim/emulators/emulated_ahrs.h"
+#include "hal_sim/emulators/emulated_position.h"
+#include "hal_sim/emulators/emulated_sonar.h"
 #include "hal_sim/world/world_task.h"
 #include "mid_level/base/startup_error.h"
 #include "mid_level/blackboard/segment.h"
@@ -28,6 +31,20 @@ constexpr int kUsbSpeed_baud = 115200;
   return options;
 }
 
+[[nodiscard]] EmulatedPositionOptions position_options(const DeviceBenchOptions& bench,
+                                                       const Scenario& scenario) {
+  EmulatedPositionOptions options = emulated_position_options(scenario);
+  options.receiver.epoch = bench.epoch;
+  return options;
+}
+
+[[nodiscard]] EmulatedSonarOptions sonar_options(const DeviceBenchOptions& bench,
+                                                 const Scenario& scenario) {
+  EmulatedSonarOptions options = emulated_sonar_options(scenario);
+  options.program.epoch = bench.epoch;
+  return options;
+}
+
 [[nodiscard]] EmulatedThrustersOptions box_options(const DeviceBenchOptions& bench,
                                                    const Scenario& scenario) {
   EmulatedThrustersOptions options;
@@ -48,14 +65,23 @@ struct DeviceBench::Impl {
         world{scenario, load_hull(options.hull), board.writable(), *link},
         mission{writer_of(board.writable(), board.writable().mission_status, Role::kHigh)},
         ahrs{ahrs_options(scenario), scenario.faults, now},
+        position{position_options(options, scenario), scenario.faults, now},
+        sonar{sonar_options(options, scenario), scenario.faults, now},
         thrusters{box_options(options, scenario), scenario.faults, now},
         thrust{link->thrust, Role::kLow, "emulated thrust"},
         samples{link->world},
         ahrs_port{ahrs.device(), ahrs.wire(),
                   line_for(options.ahrs_port, options.directory / "ahrs", ahrs.device().baud())},
+        position_port{position.device(), position.wire(),
+                      line_for(options.position_port, options.directory / "position",
+                               position.device().baud())},
         thruster_port{thrusters.device(), thrusters.wire(),
                       line_for(options.thruster_port, options.directory / "thrusters",
-                               thrusters.device().baud())} {}
+                               thrusters.device().baud())} {
+    if (options.sonar_port != 0) {
+      sonar_socket.emplace(UdpOptions{options.sonar_host, options.sonar_port, 0});
+    }
+  }
 
   void follow_boat(Time now) {
     if (now < next_look) {
@@ -94,9 +120,15 @@ struct DeviceBench::Impl {
       sample = samples.latest();
       if (sample != nullptr) {
         ahrs.feel(sample->value, thrusters.share(), now);
+        position.feel(sample->value, thrusters.share(), now);
+        sonar.feel(sample->value, now);
       }
     }
     ahrs_port.pump(now);
+    position_port.pump(now);
+    if (sonar_socket) {
+      sonar.exchange(*sonar_socket, now);
+    }
   }
 
   std::string boat_segment;
@@ -105,11 +137,15 @@ struct DeviceBench::Impl {
   WorldTask world;
   Writer<MissionStatus> mission;
   EmulatedAhrs ahrs;
+  EmulatedPosition position;
+  EmulatedSonar sonar;
   EmulatedThrusters thrusters;
   Writer<SimThrust> thrust;
   Reader<WorldSample> samples;
   DevicePort ahrs_port;
+  DevicePort position_port;
   DevicePort thruster_port;
+  std::optional<UdpSocket> sonar_socket;
   std::optional<SharedBlackboard> boat;
   std::optional<Reader<MissionStatus>> missions;
   Time mission_told{};
@@ -127,6 +163,8 @@ void DeviceBench::step(Time now) { impl_->step(now); }
 std::string DeviceBench::order(const std::string& text) {
   if (text == "clear") {
     impl_->ahrs.faults().clear();
+    impl_->position.faults().clear();
+    impl_->sonar.faults().clear();
     impl_->thrusters.faults().clear();
     return {};
   }
@@ -136,8 +174,14 @@ std::string DeviceBench::order(const std::string& text) {
   }
   const auto* sample = impl_->samples.latest();
   parsed.fault->at_s += sample != nullptr ? sample->value.scenario_time_s : 0.0;
-  const bool taken = impl_->ahrs.faults().add(*parsed.fault, impl_->ahrs.device()) ||
-                     impl_->thrusters.faults().add(*parsed.fault, impl_->thrusters.device());
+  const Fault& fault = *parsed.fault;
+  Impl& bench = *impl_;
+  const bool taken =
+      bench.ahrs.faults().add(fault, bench.ahrs.device(), bench.ahrs.wire()) ||
+      bench.position.faults().add(fault, bench.position.device(), bench.position.wire()) ||
+      (bench.sonar_socket &&
+       bench.sonar.faults().add(fault, bench.sonar.device(), bench.sonar.network())) ||
+      bench.thrusters.faults().add(fault, bench.thrusters.device(), bench.thrusters.wire());
   return taken ? "" : "no such fault of a device on this bench";
 }
 

@@ -118,15 +118,6 @@ void require_addresses(const BoatConfig& config) {
   }
 }
 
-void require_drivers(const BoatConfig& config) {
-  for (const DeviceContract* contract : contracts()) {
-    const std::string& address = config.devices.*contract->address;
-    if (is_one_of(contract->to_come, address)) {
-      config.document.root().table("devices").refuse(contract->key, no_driver(address));
-    }
-  }
-}
-
 void require_faults(const BoatConfig& config, const Scenario& scenario) {
   for (const Fault& fault : scenario.faults) {
     for (const DeviceContract* contract : contracts()) {

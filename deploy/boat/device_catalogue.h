@@ -28,8 +28,6 @@ namespace lodesman {
 
 // Refuses what is no address, or has settings that its driver cannot have. Opens nothing.
 void require_addresses(const BoatConfig& config);
-// Refuses what is an address and has no driver yet.
-void require_drivers(const BoatConfig& config);
 // Refuses faults that a device as simulated here cannot have.
 void require_faults(const BoatConfig& config, const Scenario& scenario);
 

@@ -20,7 +20,6 @@ struct DeviceContract {
   std::string DeviceAddresses::*address;
   bool optional;                          // a boat may do without it
   std::vector<std::string_view> schemes;  // of its addresses
-  std::vector<std::string_view> to_come;  // those of them that have no driver yet
   FaultDevice faults;
   // Reads the settings of an address as its driver will, and makes nothing. Throws StartupError.
   void (*check)(const std::string& address);

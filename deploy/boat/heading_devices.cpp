@@ -43,8 +43,8 @@ void check_heading(const std::string& address) {
 
 const DeviceContract& heading_contract() {
   static const DeviceContract kContract{
-      "heading", &DeviceAddresses::heading, false,        {"sim", "loop", "nav440"},
-      {},        FaultDevice::kAhrs,        check_heading};
+      "heading",    &DeviceAddresses::heading, false, {"sim", "loop", "nav440"}, FaultDevice::kAhrs,
+      check_heading};
   return kContract;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// lodesman-devices: the bench without a boat. A simulated vessel behind an AHRS and a thruster box
-// that are emulated to the byte, on ptys or on serial ports with a cable to the boat's computer.
+// lodesman-devices: the bench without a boat. A simulated vessel behind AHRS, satellite receiver,
+// sonar and thruster box that are emulated to the byte, on ptys or on serial ports with a cable to
+// the boat's computer, and on UDP.
 #include <fcntl.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
@@ -97,6 +98,9 @@ int run(DevicesOptions& options) {
   options.bench.box =
       options.box == "roboclaw" ? ThrusterBoxKind::kRoboClaw : ThrusterBoxKind::kMaestro;
   const SteadyClock clock;
+  // Its satellites tell the machine's UTC.
+  options.bench.epoch = std::chrono::system_clock::now().time_since_epoch() -
+                        std::chrono::nanoseconds{clock.now().time_since_epoch()};
   DeviceBench bench{options.bench, scenario, clock.now()};
   Control control{options.control};
   std::jthread stepping{[&](const std::stop_token& stop) {
@@ -125,20 +129,28 @@ int main(int argc, char** argv) {
   lodesman::add_process_options(app, options);
   lodesman::add_seed_option(app, options.seed);
   app.add_option("--ports", options.bench.directory,
-                 "Directory of the ptys' names: ahrs, thrusters")
+                 "Directory of the ptys' names: ahrs, position, thrusters")
       ->required()
       ->type_name("DIR");
   app.add_option("--ahrs-port", options.bench.ahrs_port, "A serial port instead of the first")
       ->type_name("PORT");
-  app.add_option("--thruster-port", options.bench.thruster_port, "Instead of the second")
+  app.add_option("--position-port", options.bench.position_port, "Instead of the second")
       ->type_name("PORT");
+  app.add_option("--thruster-port", options.bench.thruster_port, "Instead of the third")
+      ->type_name("PORT");
+  lodesman::add_port_option(
+      app, "--sonar-port", options.bench.sonar_port,
+      "UDP port on which the boat listens for the sonar; without it there is none");
+  app.add_option("--sonar-host", options.bench.sonar_host, "The boat's address [127.0.0.1]")
+      ->type_name("HOST");
   app.add_option("--box", options.box, "maestro or roboclaw")
       ->check(CLI::IsMember({"maestro", "roboclaw"}));
   app.add_flag("--esc", options.bench.has_escs, "Speed controllers behind the servo box");
   app.add_option("--control", options.control, "A named pipe to make: a line a fault, or clear")
       ->type_name("FILE");
   app.footer(
-      "Example: lodesman-devices --scenario paper-static --ports ports --control control\n"
+      "Example: lodesman-devices --scenario paper-static --ports ports --sonar-port 4040 --control "
+      "control\n"
       "         echo 'ahrs flip rate=0.01 for=5' > control");
   return lodesman::process_main(app, argc, argv, [&] { return lodesman::run(options); });
 }

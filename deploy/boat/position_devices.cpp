@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/boat/device_contract.h"
+#include "deploy/boat/looped_devices.h"
 #include "drivers/gpsd/gpsd_receiver.h"
 #include "drivers/nav440/nav440_position.h"
 #include "drivers/nav440/options.h"
@@ -20,6 +21,8 @@ void check_position(const std::string& address) {
     static_cast<void>(nmea_options({rest, nmea_settings()}));
   } else if (scheme == "gpsd") {
     static_cast<void>(gpsd_options({rest, gpsd_settings()}));
+  } else if (scheme == "loop") {
+    check_looped_position(address);
   } else if (scheme == "nav440") {
     if (rest != kOfHeading) {
       throw StartupError(std::string{"must be nav440:"} + kOfHeading +
@@ -33,9 +36,12 @@ void check_position(const std::string& address) {
 }  // namespace
 
 const DeviceContract& position_contract() {
-  static const DeviceContract kContract{
-      "position", &DeviceAddresses::position, true,          {"sim", "gpsd", "nmea", "nav440"},
-      {},         FaultDevice::kPosition,     check_position};
+  static const DeviceContract kContract{"position",
+                                        &DeviceAddresses::position,
+                                        true,
+                                        {"sim", "loop", "gpsd", "nmea", "nav440"},
+                                        FaultDevice::kPosition,
+                                        check_position};
   return kContract;
 }
 
@@ -74,7 +80,7 @@ std::unique_ptr<PositionSensor> make_position_sensor(const Workshop& shop,
   if (scheme == "nav440") {
     return std::make_unique<Nav440Position>(shop.nav440_fixes);
   }
-  return nullptr;
+  return scheme == "loop" ? make_looped_position(shop, address) : nullptr;
 }
 
 }  // namespace lodesman

@@ -59,7 +59,26 @@ inline void add_set_option(CLI::App& command, const std::string& flag, const std
       ->type_name("TEXT");
 }
 
-// Digits alone, up to what a scenario file can hold: CLI11 by itself wraps negative numbers round.
+// A port of a network. Digits alone: CLI11 by itself wraps negative numbers round.
+inline void add_port_option(CLI::App& command, const std::string& name, std::uint16_t& port,
+                            const std::string& description) {
+  command
+      .add_option_function<std::string>(
+          name,
+          [&port, name](const std::string& text) {
+            std::uint16_t value = 0;
+            const char* end = text.data() + text.size();
+            const auto parsed = std::from_chars(text.data(), end, value);
+            if (parsed.ec != std::errc{} || parsed.ptr != end || value == 0) {
+              throw CLI::ValidationError(name, "must be from 1 to 65535");
+            }
+            port = value;
+          },
+          description)
+      ->type_name("PORT");
+}
+
+// Digits alone, for the same reason, up to what a scenario file can hold.
 inline void add_seed_option(CLI::App& command, std::optional<std::uint64_t>& seed) {
   command
       .add_option_function<std::string>(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/boat/device_contract.h"
+#include "deploy/boat/looped_devices.h"
 #include "drivers/delta_t/delta_t.h"
 #include "drivers/delta_t/ping_player.h"
 #include "drivers/stream/udp_socket.h"
@@ -34,7 +35,9 @@ class DeltaTOnNetwork final : public ImagingSonar {
 
 void check_sonar(const std::string& address) {
   const std::string scheme = scheme_of(address);
-  if (scheme == "delta_t") {
+  if (scheme == "loop") {
+    check_looped_sonar(address);
+  } else if (scheme == "delta_t") {
     static_cast<void>(delta_t_settings_in({rest_of(address), delta_t_settings()}));
   } else if (scheme == "file") {
     static_cast<void>(beam_sign_in(files_at(address)));
@@ -46,15 +49,21 @@ void check_sonar(const std::string& address) {
 }  // namespace
 
 const DeviceContract& sonar_contract() {
-  static const DeviceContract kContract{
-      "sonar", &DeviceAddresses::sonar, false,      {"sim", "delta_t", "file"},
-      {},      FaultDevice::kSonar,     check_sonar};
+  static const DeviceContract kContract{"sonar",
+                                        &DeviceAddresses::sonar,
+                                        false,
+                                        {"sim", "loop", "delta_t", "file"},
+                                        FaultDevice::kSonar,
+                                        check_sonar};
   return kContract;
 }
 
 std::unique_ptr<ImagingSonar> make_sonar(const Workshop& shop, const std::string& address) {
   if (is_sim(shop, address)) {
     return std::make_unique<SimSonar>(*shop.scenario, *shop.link);
+  }
+  if (scheme_of(address) == "loop") {
+    return make_looped_sonar(shop, address);
   }
   if (scheme_of(address) == "delta_t") {
     const DeviceAddress where{rest_of(address), delta_t_settings()};

@@ -61,7 +61,6 @@ const DeviceContract& thruster_contract() {
                                         &DeviceAddresses::thrusters,
                                         true,
                                         {"sim", "loop", "maestro", "roboclaw"},
-                                        {},
                                         FaultDevice::kThruster,
                                         check_thruster};
   return kContract;

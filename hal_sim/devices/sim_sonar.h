@@ -3,11 +3,10 @@
 // the nearest surface and nothing behind it. Polled by the one thread that owns it.
 #pragma once
 
-#include <vector>
-
 #include "drivers/hal/devices.h"
 #include "hal_sim/devices/sample_feed.h"
 #include "hal_sim/scenario/scenario.h"
+#include "hal_sim/sonar/heard_scene.h"
 
 namespace lodesman {
 
@@ -23,8 +22,7 @@ class SimSonar final : public ImagingSonar {
 
   SampleFeed feed_;
   ScenarioSonar settings_;
-  std::vector<MovingObstacle> obstacles_;
-  std::vector<Obstacle> scene_;  // those that exist at the ping; room for all was made once
+  HeardScene scene_;
   std::uint64_t pings_ = 0;
 };
 

@@ -6,7 +6,17 @@ namespace {
 
 // What is injected again and again while the fault runs is counted where it is.
 [[nodiscard]] constexpr bool counts_at_begin(FaultKind kind) noexcept {
-  return kind != FaultKind::kSpike && kind != FaultKind::kError;
+  switch (kind) {
+    case FaultKind::kCorrupt:
+    case FaultKind::kSpike:
+    case FaultKind::kError:
+    case FaultKind::kForeign:
+    case FaultKind::kRepeat:
+    case FaultKind::kBadChecksum:
+    case FaultKind::kNoChecksum:
+    case FaultKind::kQuality: return false;
+    default: return true;
+  }
 }
 
 }  // namespace

@@ -33,6 +33,22 @@ class InjectionBook {
   std::array<Injection, kFaultKindCount> injections_{};
 };
 
+// The way between a device and its host, which can have faults of its own.
+class FaultyWay {
+ public:
+  FaultyWay() = default;
+  FaultyWay(const FaultyWay&) = delete;
+  FaultyWay& operator=(const FaultyWay&) = delete;
+  virtual ~FaultyWay() = default;
+
+  // Whether it can have such a fault.
+  [[nodiscard]] virtual bool can_have(FaultKind kind) const noexcept = 0;
+  // One that it can have; the rest are passed over.
+  virtual void begin_fault(const Fault& fault, Time now) = 0;
+  // The one of that kind that begins at that time.
+  virtual void end_fault(const Fault& fault) = 0;
+};
+
 class FaultyDevice : public EmulatedDevice {
  public:
   // Whether it can have such a fault; the rest are of the line or of another device.

@@ -61,8 +61,9 @@ FaultTimetable::FaultTimetable(const std::vector<Fault>& faults, FaultDevice dev
   }
 }
 
-bool FaultTimetable::add(const Fault& fault, const FaultyDevice& device) {
-  if (fault.device != device_ || !can_have(device, fault.kind)) {
+bool FaultTimetable::add(const Fault& fault, const FaultyDevice& device, const FaultyWay& way) {
+  // Of those that a scenario may name for a thruster box, no box has every one.
+  if (fault.device != device_ || !(device.has_fault(fault.kind) || way.can_have(fault.kind))) {
     return false;
   }
   entries_.push_back({fault, State::kToCome});
@@ -77,27 +78,23 @@ void FaultTimetable::clear() noexcept {
 }
 
 void FaultTimetable::advance(double scenario_time_s, Time now, FaultyDevice& device,
-                             EmulatedWire& wire) {
+                             FaultyWay& way) {
   for (Entry& entry : entries_) {
     const Fault& fault = entry.fault;
     const bool has_begun = scenario_time_s >= fault.at_s;
     const bool has_ended = scenario_time_s >= fault.at_s + fault.duration_s;
     if (entry.state == State::kRunning && has_ended) {
       device.end_fault(fault, now);
-      wire.end_fault(fault);
+      way.end_fault(fault);
       entry.state = State::kOver;
     }
     // However short it is, it runs at least from one step to the next.
     if (entry.state == State::kToCome && has_begun) {
       device.begin_fault(fault, now);
-      wire.begin_fault(fault, now);
+      way.begin_fault(fault, now);
       entry.state = State::kRunning;
     }
   }
-}
-
-bool can_have(const FaultyDevice& device, FaultKind kind) noexcept {
-  return device.has_fault(kind) || EmulatedWire::has_fault(kind);
 }
 
 }  // namespace lodesman

@@ -41,11 +41,11 @@ class FaultTimetable {
  public:
   FaultTimetable(const std::vector<Fault>& faults, FaultDevice device);
 
-  // One more, while it runs. Of another device, or none that device or wire can have: not taken.
-  [[nodiscard]] bool add(const Fault& fault, const FaultyDevice& device);
+  // One more, while it runs. Of another device, or none that device or way can have: not taken.
+  [[nodiscard]] bool add(const Fault& fault, const FaultyDevice& device, const FaultyWay& way);
   // All that run end at the next advance, and those to come never begin.
   void clear() noexcept;
-  void advance(double scenario_time_s, Time now, FaultyDevice& device, EmulatedWire& wire);
+  void advance(double scenario_time_s, Time now, FaultyDevice& device, FaultyWay& way);
 
  private:
   enum class State : std::uint8_t { kToCome, kRunning, kOver };
@@ -57,9 +57,5 @@ class FaultTimetable {
   FaultDevice device_;
   std::vector<Entry> entries_;
 };
-
-// Whether this device on such a line can have a fault at all: of those that a scenario may name for
-// a thruster box, no box has every one.
-[[nodiscard]] bool can_have(const FaultyDevice& device, FaultKind kind) noexcept;
 
 }  // namespace lodesman

@@ -27,16 +27,15 @@ struct WireSettings {
   Duration usb_frame{};          // what is handed on arrives at multiples of it; 0: at once
 };
 
-class EmulatedWire {
+class EmulatedWire final : public FaultyWay {
  public:
   // name, seed: of the streams of its faults.
   EmulatedWire(std::string_view name, std::uint64_t seed, const WireSettings& settings = {});
 
-  // The faults of the line; the rest are passed over.
   [[nodiscard]] static bool has_fault(FaultKind kind) noexcept;
-  void begin_fault(const Fault& fault, Time now);
-  // The one of that kind that begins at that time.
-  void end_fault(const Fault& fault);
+  [[nodiscard]] bool can_have(FaultKind kind) const noexcept override { return has_fault(kind); }
+  void begin_fault(const Fault& fault, Time now) override;
+  void end_fault(const Fault& fault) override;
   // [-] [0, 1] what the thrusters do.
   void set_thrust_share(double share) noexcept { thrust_share_ = share; }
 

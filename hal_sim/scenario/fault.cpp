@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "hal_sim/scenario/fault_table.h"
 #include "mid_level/base/short_number.h"
 
 namespace lodesman {
@@ -18,156 +19,52 @@ constexpr std::size_t kMaxKindLength = 32;
 
 constexpr std::array<std::string_view, 4> kDeviceNames{"ahrs", "thruster", "sonar", "position"};
 
-// A number that belongs to a fault: what it is when it is left out, and from where to where it may
-// be. None where both ends are the same.
-struct Parameter {
-  double otherwise = 0.0;
-  double least = 0.0;
-  double most = 0.0;
-
-  [[nodiscard]] constexpr bool exists() const noexcept { return least < most; }
-};
-constexpr Parameter kNoNumber{};
-
-// Which devices have a kind.
-constexpr unsigned kA = 1U << static_cast<unsigned>(FaultDevice::kAhrs);
-constexpr unsigned kT = 1U << static_cast<unsigned>(FaultDevice::kThruster);
-constexpr unsigned kSensors = kA | 1U << static_cast<unsigned>(FaultDevice::kSonar) |
-                              1U << static_cast<unsigned>(FaultDevice::kPosition);
-
-struct Row {
-  FaultKind kind;
-  std::string_view name;
-  unsigned devices;
-  Parameter rate;
-  Parameter value;
-  std::string_view help;
-};
-
-constexpr Parameter chance(double otherwise) noexcept { return {otherwise, 0.0, 1.0}; }
-
-// In the order of FaultKind.
-constexpr std::array<Row, kFaultKindCount - 1> kRows{{
-    {FaultKind::kStall, "stall", kSensors | kT, kNoNumber, kNoNumber, ""},
-    {FaultKind::kCorrupt, "corrupt", kSensors, kNoNumber, kNoNumber, ""},
-    {FaultKind::kDisconnect, "disconnect", kSensors | kT, kNoNumber, kNoNumber, ""},
-    {FaultKind::kFlip, "flip", kA | kT, chance(1e-4), kNoNumber,
-     "rate: chance of a byte to become another"},
-    {FaultKind::kBurst, "burst", kA | kT, chance(0.3), kNoNumber,
-     "rate: the same, in bad spells of 20 ms after 10 s on the average"},
-    {FaultKind::kDrop, "drop", kA | kT, chance(1e-4), kNoNumber,
-     "rate: chance of a byte to be lost"},
-    {FaultKind::kDuplicate, "duplicate", kA | kT, chance(1e-4), kNoNumber,
-     "rate: chance of a byte to come twice"},
-    {FaultKind::kInsert, "insert", kA | kT, chance(1e-4), kNoNumber,
-     "rate: chance of a byte that nobody sent"},
-    {FaultKind::kInterference, "interference", kA | kT, chance(1e-3), kNoNumber,
-     "rate: chance of a byte to become another at full thrust; it grows with thrust squared"},
-    {FaultKind::kCut, "cut", kA | kT, chance(0.05), kNoNumber,
-     "rate: chance of a frame to end early"},
-    {FaultKind::kLate,
-     "late",
-     kA | kT,
-     chance(0.05),
-     {0.1, 0.0, 10.0},
-     "rate: chance of an answer to come one to three times value [s] too late"},
-    {FaultKind::kBatch,
-     "batch",
-     kA | kT,
-     kNoNumber,
-     {0.016, 0.0, 1.0},
-     "value [s]: an adapter hands on at multiples of it, or 62 bytes"},
-    {FaultKind::kHang,
-     "hang",
-     kA | kT,
-     {1.0, 0.0, 600.0},
-     kNoNumber,
-     "rate [a minute]: of silences of 50 ms to 30 s"},
-    {FaultKind::kReplug,
-     "replug",
-     kA | kT,
-     {1.0, 0.0, 600.0},
-     kNoNumber,
-     "rate [a minute]: of being gone for 0.1 to 5 s"},
-    {FaultKind::kPower, "power", kA | kT, kNoNumber, kNoNumber, "off, and on again at the end"},
-    {FaultKind::kFrozen, "frozen", kA, kNoNumber, kNoNumber, "the same values again and again"},
-    {FaultKind::kStep,
-     "step",
-     kA,
-     kNoNumber,
-     {45.0, -180.0, 180.0},
-     "value [deg]: the heading is off"},
-    {FaultKind::kDrift,
-     "drift",
-     kA,
-     kNoNumber,
-     {0.5, -10.0, 10.0},
-     "value [deg/s]: the heading wanders off"},
-    {FaultKind::kSpike,
-     "spike",
-     kA,
-     chance(0.01),
-     {45.0, -180.0, 180.0},
-     "rate: chance of a packet whose heading is off by value [deg]"},
-    {FaultKind::kInvalid, "invalid", kA, kNoNumber, kNoNumber, "the most negative values"},
-    {FaultKind::kMagnetic,
-     "magnetic",
-     kA,
-     kNoNumber,
-     {10.0, -180.0, 180.0},
-     "value [deg]: the heading is off at full thrust, and in proportion to it"},
-    {FaultKind::kBit,
-     "bit",
-     kA,
-     kNoNumber,
-     {1.0, 0.0, 65535.0},
-     "value: what the built-in test says"},
-    {FaultKind::kError,
-     "error",
-     kT,
-     {0.2, 0.0, 100.0},
-     kNoNumber,
-     "rate [a second]: of errors that the box reports"},
-    {FaultKind::kReset, "reset", kT, kNoNumber, kNoNumber, "forgets once what it was told"},
-    {FaultKind::kRefuse,
-     "refuse",
-     kT,
-     kNoNumber,
-     {0.0, 0.0, 23.0},
-     "value: the channel whose targets are ignored"},
-    {FaultKind::kNoTimeOut, "no_time_out", kT, kNoNumber, kNoNumber, "does not stop by itself"},
-    {FaultKind::kWrongMode, "wrong_mode", kT, kNoNumber, kNoNumber, "ignores everything"},
-    {FaultKind::kBattery, "battery", kT, kNoNumber, {21.0, 0.0, 60.0}, "value [V]: of the battery"},
-}};
-
-[[nodiscard]] const Row& row_of(FaultKind kind) noexcept {
-  return kRows[static_cast<std::size_t>(kind) - 1];
+[[nodiscard]] const FaultRow& row_of(FaultKind kind) noexcept {
+  return fault_rows()[static_cast<std::size_t>(kind) - 1];
 }
 
-[[nodiscard]] bool has(FaultDevice device, const Row& row) noexcept {
-  return ((row.devices >> static_cast<unsigned>(device)) & 1U) != 0;
+template <class Do>
+void for_each_row(Do act) {
+  for (const auto rows : {fault_rows(), further_fault_rows()}) {
+    for (const FaultRow& row : rows) {
+      act(row);
+    }
+  }
 }
 
 // The kind of that name, if the device has it.
-[[nodiscard]] const Row* find_row(FaultDevice device, std::string_view name) noexcept {
-  const auto* const row = std::find_if(kRows.begin(), kRows.end(), [&](const Row& candidate) {
-    return candidate.name == name && has(device, candidate);
+[[nodiscard]] const FaultRow* find_row(FaultDevice device, std::string_view name) noexcept {
+  const FaultRow* found = nullptr;
+  for_each_row([&](const FaultRow& row) {
+    if (row.name == name && row.is_of(device)) {
+      found = &row;
+    }
   });
-  return row == kRows.end() ? nullptr : row;
+  return found;
 }
 
 [[nodiscard]] std::string kinds_of(FaultDevice device) {
   std::string kinds;
-  for (const Row& row : kRows) {
-    if (has(device, row)) {
+  for_each_row([&](const FaultRow& row) {
+    if (row.is_of(device)) {
       kinds += (kinds.empty() ? "" : ", ") + std::string{row.name};
     }
-  }
+  });
   return kinds;
 }
 
+[[nodiscard]] std::string devices_of(const FaultRow& row) {
+  std::string devices;
+  for (std::size_t i = 0; i < kDeviceNames.size(); ++i) {
+    if (row.is_of(static_cast<FaultDevice>(i))) {
+      devices += (devices.empty() ? "" : ", ") + std::string{kDeviceNames[i]};
+    }
+  }
+  return devices;
+}
+
 [[nodiscard]] double read_parameter(const TomlTable& table, std::string_view key,
-                                    const Parameter& parameter) {
+                                    const FaultParameter& parameter) {
   return parameter.exists() ? table.number_or(key, Range::between(parameter.least, parameter.most),
                                               parameter.otherwise)
                             : parameter.otherwise;
@@ -194,10 +91,10 @@ constexpr std::array<Row, kFaultKindCount - 1> kRows{{
 }
 
 // One "name=number" of the text form; says why not, or nothing.
-[[nodiscard]] std::string take_setting(std::string_view word, const Row& row, Fault& fault) {
+[[nodiscard]] std::string take_setting(std::string_view word, const FaultRow& row, Fault& fault) {
   struct Setting {
     std::string_view name;
-    Parameter allowed;
+    FaultParameter allowed;
     double* into;
   };
   const std::array<Setting, 4> settings{{{"rate", row.rate, &fault.rate},
@@ -237,7 +134,7 @@ std::vector<Fault> read_faults(const TomlTable& root) {
     Fault fault;
     fault.device =
         static_cast<FaultDevice>(table.choice("device", {"ahrs", "thruster", "sonar", "position"}));
-    const Row* row = find_row(fault.device, table.text("kind", kMaxKindLength));
+    const FaultRow* row = find_row(fault.device, table.text("kind", kMaxKindLength));
     if (row == nullptr) {
       table.refuse("kind", "must be one of: " + kinds_of(fault.device));
     }
@@ -262,7 +159,7 @@ ParsedFault parse_fault(std::string_view text) {
   }
   Fault fault;
   fault.device = static_cast<FaultDevice>(name - kDeviceNames.begin());
-  const Row* row = find_row(fault.device, words[1]);
+  const FaultRow* row = find_row(fault.device, words[1]);
   if (row == nullptr) {
     return {std::nullopt, "kind: must be one of: " + kinds_of(fault.device)};
   }
@@ -286,14 +183,11 @@ std::string fault_kinds_help() {
       "thruster: stall (takes commands and ignores them), disconnect (takes none); after either "
       "the box's own time-out stops both thrusters\n"
       "Of devices that are emulated to the byte (loop:), with rate or value as it says:\n";
-  for (const Row& row : kRows) {
+  for_each_row([&help](const FaultRow& row) {
     if (needs_bytes(row.kind)) {
-      const std::string devices = row.devices == kA   ? "ahrs"
-                                  : row.devices == kT ? "thruster"
-                                                      : "ahrs, thruster";
-      help += devices + ": " + std::string{row.name} + " (" + std::string{row.help} + ")\n";
+      help += devices_of(row) + ": " + std::string{row.name} + " (" + std::string{row.help} + ")\n";
     }
-  }
+  });
   return help;
 }
 

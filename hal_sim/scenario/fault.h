@@ -36,12 +36,12 @@ enum class FaultKind : std::uint8_t {
   kHang,    // silence of any length, now and then
   kReplug,  // unplugged and plugged again, now and then, half of the times under another name
   kPower,   // off for the duration, then on again
-  // Of what an AHRS says: whole packets that are wrong.
+  // Of what an AHRS or a satellite receiver says: what is whole and wrong.
   kFrozen,    // the same values again and again
-  kStep,      // the heading is off by `value`
-  kDrift,     // the heading wanders off by `value` a second
-  kSpike,     // the heading is off by `value` in single packets
-  kInvalid,   // the most negative number everywhere
+  kStep,      // heading or position is off by `value`
+  kDrift,     // heading or position wanders off by `value` a second
+  kSpike,     // heading or position is off by `value` once, now and then
+  kInvalid,   // the most negative number everywhere; a position of 0, 0
   kMagnetic,  // the heading is off by `value` at full thrust
   kBit,       // its built-in test says `value`
   // Of a thruster box.
@@ -51,8 +51,24 @@ enum class FaultKind : std::uint8_t {
   kNoTimeOut,  // it does not stop by itself
   kWrongMode,  // it ignores everything on this port
   kBattery,    // its battery has `value`
+  // Of datagrams: of these a sonar has kDrop, kDuplicate and kCut too.
+  kReorder,  // comes after the one that was sent behind it
+  kForeign,  // some that are not meant for the driver, with `rate` a second
+  // Of a sonar's program.
+  kRepeat,       // a ping has the number of the one before
+  kJump,         // the numbers go on `value` farther, once
+  kRange,        // its user sets the range to `value`, once
+  kOutput,       // its user has it send the other kind of record, once
+  kAverage,      // averages `value` pings
+  kCentimetres,  // says in centimetres what it should say in millimetres
+  // Of a satellite receiver, beside kFrozen, kStep, kDrift, kSpike and kInvalid.
+  kVoid,         // has no fix, and says so
+  kWeek,         // is 1024 weeks behind
+  kBadChecksum,  // a sentence fails its check
+  kNoChecksum,   // a sentence comes without its check
+  kQuality,      // goes from one kind of fix to another, with `rate` a second
 };
-inline constexpr std::size_t kFaultKindCount = static_cast<std::size_t>(FaultKind::kBattery) + 1;
+inline constexpr std::size_t kFaultKindCount = static_cast<std::size_t>(FaultKind::kQuality) + 1;
 
 struct Fault {
   FaultDevice device = FaultDevice::kAhrs;

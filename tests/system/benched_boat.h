@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "deploy/boat/device_bench.h"
+#include "deploy/boat/free_port.h"
 #include "tests/system/boat.h"
 
 namespace lodesman::testing {
@@ -23,29 +24,49 @@ inline void require(bool holds, const std::string& what) {
   }
 }
 
+// Which of the boat's devices are the bench's.
+enum class Benched : std::uint8_t {
+  kHeadingAndThrusters,  // its sonar is simulated, and it reckons where it is
+  kAll,
+};
+
 // Three programs: the bench, and the boat's two.
 class BenchedBoat {
  public:
   // `high_options`: of lodesman-high. Throws where a program cannot be started.
-  explicit BenchedBoat(const std::string& box, std::vector<std::string> high_options = {})
+  explicit BenchedBoat(const std::string& box, std::vector<std::string> high_options = {},
+                       Benched benched = Benched::kHeadingAndThrusters)
       : high_options_{std::move(high_options)},
         ports_{scratch_.file("ports")},
         control_{scratch_.file("control")},
         segment_{"lodesman-test-hil-" + std::to_string(getpid())} {
     CommonOptions options;
-    options.sets = {"command_socket.port = 0",
-                    "devices.heading=" + toml_string("nav440:" + (ports_ / "ahrs").string()),
-                    "devices.thrusters=" + toml_string(box + ":" + (ports_ / "thrusters").string()),
-                    "devices.position=none",
-                    "estimator.position_source=dead_reckoning",
-                    "simulation.vessel=estimate"};
+    options.sets = {
+        "command_socket.port = 0",
+        "devices.heading=" + toml_string("nav440:" + (ports_ / "ahrs").string()),
+        "devices.thrusters=" + toml_string(box + ":" + (ports_ / "thrusters").string())};
+    const std::string sonar_port = std::to_string(free_udp_port());
+    const std::vector<std::string> others =
+        benched == Benched::kAll
+            ? std::vector<std::string>{"devices.sonar=" +
+                                           toml_string("delta_t:127.0.0.1?port=" + sonar_port),
+                                       "devices.position=" +
+                                           toml_string("nmea:" + (ports_ / "position").string() +
+                                                       "?baud=38400"),
+                                       "simulation.vessel=bench"}
+            : std::vector<std::string>{"devices.position=none",
+                                       "estimator.position_source=dead_reckoning",
+                                       "simulation.vessel=estimate"};
+    options.sets.insert(options.sets.end(), others.begin(), others.end());
     const auto config =
         scratch_.file("config.toml", load_configuration("default", options).to_text());
     const auto scenario = scratch_.file("scenario.toml", scenario_text(1900.0, 10'000.0));
     arguments_ = {"--segment",     segment_,     "--config",
                   config.string(), "--scenario", scenario.string()};
     start("lodesman-devices",
-          {"--ports", ports_.string(), "--box", box, "--control", control_.string()}, bench);
+          {"--ports", ports_.string(), "--box", box, "--control", control_.string(), "--sonar-port",
+           sonar_port},
+          bench);
     world_.emplace(SharedBlackboard::observe(world_segment_of(segment_), kPatience));
     truth_.emplace((*world_)->world_truth);
     start_low();

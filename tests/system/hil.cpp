@@ -12,7 +12,8 @@ namespace {
 
 // A boat on the bench, and the operator's command.
 struct OperatedBoat {
-  explicit OperatedBoat(const std::string& box) : boat{box} {
+  explicit OperatedBoat(const std::string& box, Benched benched = Benched::kHeadingAndThrusters)
+      : boat{box, {}, benched} {
     board.emplace(SharedBlackboard::observe(boat.segment(), kPatience));
     status.emplace((*board)->thrust_status);
     REQUIRE(eventually([&] {
@@ -81,4 +82,50 @@ TEST_CASE("hil: the stick outranks the mission, falls silent in neutral, and giv
   CHECK(operated.tell({"disarm"}) == 0);
   CHECK(boat.still_after_s(Time{}) >= 0.0);
   CHECK(operated.tell({"resume"}) == 1);  // the mission was aborted with it
+}
+
+namespace {
+
+// What the boat says of one of its devices.
+struct DeviceEar {
+  DeviceEar(const Blackboard& board, DeviceId device)
+      : health{board.device_health[static_cast<std::size_t>(device)]} {}
+  [[nodiscard]] bool hears(DeviceStatus status) {
+    return eventually([&] {
+      const auto* newest = health.latest();
+      return newest != nullptr && newest->value.status == status;
+    });
+  }
+  Reader<DeviceHealth> health;
+};
+
+}  // namespace
+
+TEST_CASE("hil: four real drivers at once, and what each says when its device falls silent",
+          "[system]") {
+  OperatedBoat operated{"maestro", Benched::kAll};
+  BenchedBoat& boat = operated.boat;
+  DeviceEar sonar{**operated.board, DeviceId::kSonar};
+  DeviceEar position{**operated.board, DeviceId::kPosition};
+  CHECK(sonar.hears(DeviceStatus::kWorking));
+  CHECK(position.hears(DeviceStatus::kWorking));
+  REQUIRE(operated.is_obeyed({"arm"}));
+  REQUIRE(operated.is_obeyed({"start"}));
+  boat.await_drive();
+  boat.order("sonar stall for=4");
+  CHECK(sonar.hears(DeviceStatus::kSilent));
+  CHECK(sonar.hears(DeviceStatus::kWorking));
+  boat.order("position disconnect for=4");
+  CHECK(position.hears(DeviceStatus::kDisconnected));
+  CHECK(position.hears(DeviceStatus::kWorking));
+  boat.order("sonar range value=10 for=1");
+  Reader<SonarPing> pings{(*operated.board)->sonar_ping};
+  const auto reaches = [&](double least_m, double most_m) {
+    return eventually([&] {
+      const auto* ping = pings.latest();
+      return ping != nullptr && ping->value.range_m > least_m && ping->value.range_m < most_m;
+    });
+  };
+  CHECK(reaches(9.0, 11.0));   // as its user has it
+  CHECK(reaches(29.0, 31.0));  // as the driver asked again
 }

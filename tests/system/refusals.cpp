@@ -330,6 +330,8 @@ TEST_CASE("refusals: devices that do not go together are refused by both program
        "^c.toml:2: devices.position: setting baud"},
       {"[mounting]\nantenna_m = [0.0, 101.0]\n", "^c.toml:2: mounting.antenna_m: "},
       {"[mounting]\nsonar_deg = 181.0\n", "^c.toml:2: mounting.sonar_deg: "},
+      {"[devices]\nheading = \"sim:\"\n[simulation]\nvessel = \"bench\"\n",
+       "^c.toml:2: devices.heading: is simulated, and the world is the bench's"},
   };
   for (const Row& row : rows) {
     for (const char* program : {LODESMAN_LOW_PROGRAM, LODESMAN_HIGH_PROGRAM}) {
@@ -360,6 +362,8 @@ TEST_CASE("refusals: a world that nothing is in, and a simulated device without 
          "^c.toml:7: simulation.scenario: no device is simulated");
   refuse(all_real + "[simulation]\nvessel = \"estimate\"\n",
          "^c.toml:7: simulation.vessel: no device is simulated");
+  refuse(all_real + "[simulation]\nvessel = \"bench\"\nscenario = \"\"\n",
+         "^c.toml:8: simulation.scenario: the vessel is on the bench: give the scenario");
   refuse("[simulation]\nscenario = \"\"\n",
          "^c.toml:2: simulation.scenario: devices.heading is simulated: give the scenario");
 }

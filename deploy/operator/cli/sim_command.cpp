@@ -17,6 +17,7 @@
 #include "deploy/boat/device_catalogue.h"
 #include "deploy/boat/stop_signals.h"
 #include "deploy/boat/version.h"
+#include "deploy/operator/cli/bench_options.h"
 #include "deploy/operator/cli/common_options.h"
 #include "deploy/operator/cli/number_options.h"
 #include "deploy/operator/cli/view_saver.h"
@@ -48,16 +49,6 @@ struct SimOptions {
   bool no_images = false;
   bool wait_start = false;
   std::string console = "off";
-};
-
-// Of `lodesman hil`: the same, with the real drivers on the devices of lodesman-devices.
-struct BenchOptions {
-  std::string ahrs_port;            // a serial port that a cable leads to; empty: a pty
-  std::string thruster_port;        // the same
-  std::string bench_ahrs_port;      // the cable's other end; empty: a pty
-  std::string bench_thruster_port;  // the same
-  std::string box = "maestro";
-  std::string control;  // a named pipe for faults
 };
 
 [[nodiscard]] fs::path run_directory(const SimOptions& options, const Scenario& scenario) {
@@ -192,21 +183,6 @@ class RunOutput {
   bool lost_ = false;
 };
 
-// What lodesman-devices is told.
-[[nodiscard]] std::vector<std::string> arguments_of(const BenchOptions& bench,
-                                                    const fs::path& ports) {
-  std::vector<std::string> arguments{"--ports", ports.string(), "--box", bench.box};
-  const auto add = [&](const char* option, const std::string& value) {
-    if (!value.empty()) {
-      arguments.insert(arguments.end(), {option, value});
-    }
-  };
-  add("--ahrs-port", bench.bench_ahrs_port);
-  add("--thruster-port", bench.bench_thruster_port);
-  add("--control", bench.control);
-  return arguments;
-}
-
 [[nodiscard]] RunRecord run(const SimOptions& options, const BoatConfig& configuration,
                             const Scenario& scenario, const fs::path& ports,
                             const fs::path& directory, const std::optional<BenchOptions>& bench,
@@ -236,45 +212,12 @@ class RunOutput {
                                    const fs::path& ports) {
   CommonOptions common = options.common;
   if (bench) {
-    const auto port = [&](const std::string& cable, const char* name) {
-      return cable.empty() ? (ports / name).string() : cable;
-    };
-    // First, so that whoever says otherwise has it otherwise.
-    common.sets.insert(
-        common.sets.begin(),
-        {"devices.heading=" + toml_string("nav440:" + port(bench->ahrs_port, "ahrs")),
-         "devices.thrusters=" +
-             toml_string(bench->box + ":" + port(bench->thruster_port, "thrusters")),
-         "devices.position=none", "estimator.position_source=dead_reckoning",
-         "simulation.vessel=estimate"});
+    set_bench(*bench, ports, common);
+    set_bench_world(load_configuration(options.profile, common), options.scenario, common);
   }
   common.sets.push_back("simulation.scenario=" + toml_string(options.scenario));
   return load_configuration(options.profile, common);
 }
-
-// Where the ptys of a bench have their names: short, and gone with the run.
-class PortsDirectory {
- public:
-  explicit PortsDirectory(bool needed) {
-    std::string pattern = (fs::temp_directory_path() / "lodesman-hil-XXXXXX").string();
-    if (needed) {
-      if (mkdtemp(pattern.data()) == nullptr) {
-        throw StartupError("hil: " + pattern + ": cannot be made");
-      }
-      path_ = pattern;
-    }
-  }
-  PortsDirectory(const PortsDirectory&) = delete;
-  PortsDirectory& operator=(const PortsDirectory&) = delete;
-  ~PortsDirectory() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-  }
-  [[nodiscard]] const fs::path& path() const noexcept { return path_; }
-
- private:
-  fs::path path_;
-};
 
 [[nodiscard]] int simulate(const SimOptions& options, const std::optional<BenchOptions>& bench) {
   const PortsDirectory ports{bench.has_value()};
@@ -361,29 +304,13 @@ void add_hil_command(CLI::App& root, int& exit_status) {
   CLI::App* command = root.add_subcommand(
       "hil", "Sail a scenario with the real drivers, on devices that are emulated to the byte");
   add_options(*command, *options);
-  command->add_option("--ahrs-port", bench->ahrs_port, "A port instead of a pty: the boat's end")
-      ->type_name("PORT");
-  command->add_option("--thruster-port", bench->thruster_port, "The same")->type_name("PORT");
-  command->add_option("--bench-ahrs-port", bench->bench_ahrs_port, "The other end of that cable")
-      ->type_name("PORT");
-  command->add_option("--bench-thruster-port", bench->bench_thruster_port, "The same")
-      ->type_name("PORT");
-  command->add_option("--box", bench->box, "maestro or roboclaw")
-      ->check(CLI::IsMember({"maestro", "roboclaw"}));
-  command->add_option("--control", bench->control, "A named pipe to make: a line a fault, or clear")
-      ->type_name("FILE");
+  add_bench_options(*command, *bench);
   command->footer(
       "Examples: lodesman hil paper-static --profile paper\n"
       "          lodesman hil paper-static --ahrs-port /dev/ttyUSB0 --bench-ahrs-port "
       "/dev/ttyUSB1");
   command->callback([options, bench, &exit_status] {
-    if (bench->ahrs_port.empty() != bench->bench_ahrs_port.empty() ||
-        bench->thruster_port.empty() != bench->bench_thruster_port.empty()) {
-      throw CLI::ValidationError("hil",
-                                 "a cable has two ends: give --ahrs-port with "
-                                 "--bench-ahrs-port, --thruster-port with "
-                                 "--bench-thruster-port");
-    }
+    complete(*bench);
     exit_status = simulate(*options, *bench);
   });
 }

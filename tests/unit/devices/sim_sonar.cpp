@@ -5,7 +5,7 @@
 #include <memory>
 #include <random>
 
-#include "hal_sim/devices/echo.h"
+#include "hal_sim/sonar/echo.h"
 #include "hal_sim/world/clearance.h"
 #include "tests/support/catch.h"
 #include "tests/unit/devices/support.h"

@@ -155,9 +155,9 @@ TEST_CASE("line feed: the same seed gives the same bytes at the same times",
 TEST_CASE("line feed: a fault is added while it runs, and taken back", "[hal_sim][emulators]") {
   FedLine fed;
   fed.run_until(100);
-  CHECK_FALSE(fed.timetable.add(box_fault(FaultKind::kStall), fed.unit));
-  CHECK_FALSE(fed.timetable.add(ahrs_fault(FaultKind::kError), fed.unit));
-  CHECK(fed.timetable.add(ahrs_fault(FaultKind::kStall), fed.unit));
+  CHECK_FALSE(fed.timetable.add(box_fault(FaultKind::kStall), fed.unit, fed.wire));
+  CHECK_FALSE(fed.timetable.add(ahrs_fault(FaultKind::kError), fed.unit, fed.wire));
+  CHECK(fed.timetable.add(ahrs_fault(FaultKind::kStall), fed.unit, fed.wire));
   fed.run_until(160);
   fed.read.clear();
   fed.run_until(500);

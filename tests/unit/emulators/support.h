@@ -61,4 +61,12 @@ using Bytes = std::vector<std::uint8_t>;
   return {FaultDevice::kThruster, kind, 0.0, 1e5, rate, value};
 }
 
+[[nodiscard]] inline Fault sonar_fault(FaultKind kind, double rate = 0.0, double value = 0.0,
+                                       double at_s = 0.0, double duration_s = 1e5) {
+  return {FaultDevice::kSonar, kind, at_s, duration_s, rate, value};
+}
+[[nodiscard]] inline Fault gps_fault(FaultKind kind, double rate = 0.0, double value = 0.0) {
+  return {FaultDevice::kPosition, kind, 0.0, 1e5, rate, value};
+}
+
 }  // namespace lodesman::testing

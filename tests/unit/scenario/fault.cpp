@@ -89,7 +89,16 @@ TEST_CASE("fault: a line of text that is none is refused with the reason", "[hal
   CHECK(refusal("") == "must be: DEVICE KIND [rate=...] [value=...] [at=...] [for=...]");
   CHECK(refusal("ahrs") == refusal(""));
   CHECK(refusal("gps stall") == "device: must be one of: ahrs, thruster, sonar, position");
-  CHECK(refusal("sonar flip") == "kind: must be one of: stall, corrupt, disconnect");
+  // Of datagrams no byte is spoilt: their sum would not come out.
+  CHECK(refusal("sonar flip") ==
+        "kind: must be one of: stall, corrupt, disconnect, hang, power, reorder, foreign, repeat, "
+        "jump, range, output, average, centimetres, drop, duplicate, cut");
+  CHECK(refusal("position late") ==
+        "kind: must be one of: stall, corrupt, disconnect, flip, burst, drop, duplicate, insert, "
+        "interference, cut, batch, hang, replug, power, frozen, void, week, bad_checksum, "
+        "no_checksum, quality, step, drift, spike, invalid");
+  CHECK(refusal("position step value=2e4") == "value: must be a number from -1e+04 to 1e+04");
+  CHECK(refusal("ahrs step value=200") == "value: must be a number from -180 to 180");
   CHECK(refusal("ahrs flip rate=2") == "rate: must be a number from 0 to 1");
   CHECK(refusal("ahrs flip rate=-0.1") == "rate: must be a number from 0 to 1");
   CHECK(refusal("ahrs flip rate=nan") == "rate: must be a number from 0 to 1");
@@ -101,6 +110,24 @@ TEST_CASE("fault: a line of text that is none is refused with the reason", "[hal
   CHECK(refusal("ahrs flip value=1") == "value=1: flip has no such setting");
   CHECK(refusal("ahrs stall rate=1") == "rate=1: stall has no such setting");
   CHECK(refusal("ahrs flip now") == "now: flip has no such setting");
+}
+
+TEST_CASE("fault: one kind has the numbers of the device that has it", "[hal_sim][scenario]") {
+  const ParsedFault turned = parse_fault("ahrs step");
+  const ParsedFault moved = parse_fault("position step");
+  const ParsedFault lost = parse_fault("sonar drop");
+  const ParsedFault lost_byte = parse_fault("position drop");
+  REQUIRE(turned.fault);
+  REQUIRE(moved.fault);
+  REQUIRE(lost.fault);
+  REQUIRE(lost_byte.fault);
+  CHECK(turned.fault->kind == moved.fault->kind);
+  CHECK(turned.fault->value == Approx(45.0));
+  CHECK(moved.fault->value == Approx(5.0));
+  CHECK(lost.fault->rate == Approx(0.01));
+  CHECK(lost_byte.fault->rate == Approx(1e-4));
+  CHECK(fault_kinds_help().find("sonar: drop (rate: chance of a datagram") != std::string::npos);
+  CHECK(fault_kinds_help().find("ahrs, position: frozen (") != std::string::npos);
 }
 
 TEST_CASE("fault schedule: what needs bytes is nothing to a device without",

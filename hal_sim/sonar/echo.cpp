@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hal_sim/devices/echo.h"
+#include "hal_sim/sonar/echo.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hal_sim/sonar/heard_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "hal_sim/sonar/echo.h"
+
+namespace lodesman {
+namespace {
+
+// Ours: a hard surface is bright, and its echo dies away over a few bins.
+constexpr std::array<std::uint8_t, 4> kEcho = {kBrightestEcho, 150, 100, 50};
+
+}  // namespace
+
+HeardScene::HeardScene(std::vector<MovingObstacle> obstacles) : obstacles_{std::move(obstacles)} {
+  scene_.reserve(obstacles_.size());
+}
+
+void HeardScene::observe(const VehiclePose& pose, double scenario_time_s) noexcept {
+  pose_ = pose;
+  scene_.clear();
+  for (const MovingObstacle& mover : obstacles_) {
+    if (mover.exists(scenario_time_s)) {
+      scene_.push_back(mover.at(scenario_time_s));
+    }
+  }
+}
+
+double HeardScene::range_m(double bearing_rad) const noexcept {
+  const double in_world_rad = pose_.angle_to_world_rad(bearing_rad);
+  const Eigen::Vector2d direction_W{std::sin(in_world_rad), std::cos(in_world_rad)};
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const Obstacle& obstacle : scene_) {
+    nearest_m = std::min(nearest_m, ray_range_m(obstacle, pose_.p_WV, direction_W));
+  }
+  return nearest_m;
+}
+
+void draw_echo(double surface_m, double range_m, std::span<std::uint8_t> bins) noexcept {
+  if (!(surface_m < range_m)) {
+    return;
+  }
+  const auto first =
+      static_cast<std::size_t>(surface_m / range_m * static_cast<double>(bins.size()));
+  for (std::size_t i = 0; i < kEcho.size() && first + i < bins.size(); ++i) {
+    bins[first + i] = kEcho[i];
+  }
+}
+
+}  // namespace lodesman
