@@ -79,7 +79,7 @@ TEST_CASE("nav440 position: one unit gives heading and position, five fixes a se
   }
 }
 
-TEST_CASE("nav440 position: a unit without a fix gives none, and says so; its heading goes on",
+TEST_CASE("nav440 position: a unit without a fix gives none, and says so while its heading goes on",
           "[nav440]") {
   PositionBench bench{Nav440Packet::kN1, "N1"};
   REQUIRE(bench.comes_up());

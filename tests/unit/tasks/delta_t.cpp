@@ -107,10 +107,7 @@ class EchoSonar final : public ImagingSonar {
     out.number = 1;
     out.captured = now - age_;
     out.range_m = 30.0;
-    out.sector_rad = 2.0;
-    out.beams = 64;
-    out.bins = 150;
-    out.echo_count = 64 * 150;
+    out.make_image(64, 150, 2.0);
     out.echo.fill(0);
     for (std::uint32_t beam = 30; beam < 34; ++beam) {
       for (std::uint32_t bin = 70; bin < 75; ++bin) {
