@@ -30,10 +30,8 @@ struct Protocol {
                         const std::function<void(const nlohmann::ordered_json&)>& line);
 };
 constexpr std::array kProtocols{
-    Protocol{"nav440", nav440_lines},
-    Protocol{"delta_t", delta_t_lines},
-    Protocol{"maestro", maestro_lines},
-    Protocol{"roboclaw", roboclaw_lines},
+    Protocol{"nav440", nav440_lines},   Protocol{"delta_t", delta_t_lines},
+    Protocol{"maestro", maestro_lines}, Protocol{"roboclaw", roboclaw_lines},
     Protocol{"nmea", nmea_lines},
 };
 
