@@ -14,10 +14,10 @@ constexpr std::size_t kEchoesAt = 112;
 constexpr std::uint16_t kIsValid = 0x8000;
 constexpr std::uint16_t kValueBits = 0x7FFF;
 
-template <std::size_t N>
-void copy_text(Bytes bytes, std::size_t at, Text<N>& text) noexcept {
+template <std::size_t kSize>
+void copy_text(Bytes bytes, std::size_t at, Text<kSize>& text) noexcept {
   std::transform(bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                 bytes.begin() + static_cast<std::ptrdiff_t>(at + N), text.begin(),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(at + kSize), text.begin(),
                  [](std::uint8_t byte) { return static_cast<char>(byte); });
 }
 

@@ -16,6 +16,9 @@ constexpr std::size_t kSum = 3;  // with its '*'
                                           : 16U;
 }
 
+[[nodiscard]] bool begins(std::uint8_t byte) noexcept { return byte == '$' || byte == '!'; }
+[[nodiscard]] bool ends(std::uint8_t byte) noexcept { return byte == '\r' || byte == '\n'; }
+
 }  // namespace
 
 std::uint8_t nmea_checksum(std::string_view text) noexcept {
@@ -38,30 +41,29 @@ void NmeaFraming::drop(std::uint64_t& count) noexcept {
 }
 
 std::optional<std::string_view> NmeaFraming::push(std::uint8_t byte) noexcept {
-  const bool begins = byte == '$' || byte == '!';
-  const bool ends = byte == '\r' || byte == '\n';
   if (size_ == 0) {
-    if (begins) {
-      bytes_[size_++] = static_cast<char>(byte);
-    } else {
-      // The end of a line has two bytes.
-      counts_.skipped_bytes += ends ? 0U : 1U;
-    }
-    return std::nullopt;
-  }
-  if (ends) {
+    begin(byte);
+  } else if (ends(byte)) {
     return end();
-  }
-  if (begins || byte < ' ' || byte > '~') {
+  } else if (begins(byte) || byte < ' ' || byte > '~') {
     drop(counts_.broken);
-    return push(byte);
-  }
-  if (size_ == kLongest) {
+    begin(byte);
+  } else if (size_ == kLongest) {
     drop(counts_.too_long);
-    return push(byte);
+    begin(byte);
+  } else {
+    bytes_[size_++] = static_cast<char>(byte);
   }
-  bytes_[size_++] = static_cast<char>(byte);
   return std::nullopt;
+}
+
+void NmeaFraming::begin(std::uint8_t byte) noexcept {
+  if (begins(byte)) {
+    bytes_[size_++] = static_cast<char>(byte);
+  } else {
+    // The end of a line has two bytes.
+    counts_.skipped_bytes += ends(byte) ? 0U : 1U;
+  }
 }
 
 std::optional<std::string_view> NmeaFraming::end() noexcept {

@@ -42,6 +42,7 @@ class NmeaFraming {
   [[nodiscard]] const NmeaFramingCounts& counts() const noexcept { return counts_; }
 
  private:
+  void begin(std::uint8_t byte) noexcept;
   [[nodiscard]] std::optional<std::string_view> end() noexcept;
   void drop(std::uint64_t& count) noexcept;
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kNominalSoundSpeed_m_s = 1500.0;  // that ranges in the records are counted with
 constexpr double kKnot_m_s = 1852.0 / 3600.0;
-constexpr double kNoGain_dB = 10.0;  // ours: at this gain an echo is as bright as it is
+constexpr double kNoGain_db = 10.0;  // ours: at this gain an echo is as bright as it is
 constexpr double kBrightest = 255.0;
 constexpr double kFineBins = 5000.0;
 constexpr double kPulse_us_per_m = 6.0;
@@ -103,7 +103,7 @@ std::uint16_t DeltaTProgram::resolution_mm(bool fine) const noexcept {
 }
 
 double DeltaTProgram::brightness() const noexcept {
-  return settings_.transmits ? std::pow(10.0, (settings_.gain_db - kNoGain_dB) / 20.0) : 0.0;
+  return settings_.transmits ? std::pow(10.0, (settings_.gain_db - kNoGain_db) / 20.0) : 0.0;
 }
 
 std::size_t DeltaTProgram::averaged() const noexcept {

@@ -4,11 +4,10 @@
 namespace lodesman::emulated {
 
 CivilTime civil_time(Duration since_1970) noexcept {
-  using namespace std::chrono;
-  const sys_time<nanoseconds> at{since_1970};
-  const sys_days day = floor<days>(at);
-  const year_month_day date{day};
-  const hh_mm_ss<nanoseconds> clock{at - day};
+  const std::chrono::sys_time<std::chrono::nanoseconds> at{since_1970};
+  const std::chrono::sys_days day = std::chrono::floor<std::chrono::days>(at);
+  const std::chrono::year_month_day date{day};
+  const std::chrono::hh_mm_ss<std::chrono::nanoseconds> clock{at - day};
   CivilTime civil;
   civil.year = static_cast<int>(date.year());
   civil.month = static_cast<int>(static_cast<unsigned>(date.month()));
@@ -16,7 +15,8 @@ CivilTime civil_time(Duration since_1970) noexcept {
   civil.hour = static_cast<int>(clock.hours().count());
   civil.minute = static_cast<int>(clock.minutes().count());
   civil.second = static_cast<int>(clock.seconds().count());
-  civil.millisecond = static_cast<int>(duration_cast<milliseconds>(clock.subseconds()).count());
+  civil.millisecond = static_cast<int>(
+      std::chrono::duration_cast<std::chrono::milliseconds>(clock.subseconds()).count());
   return civil;
 }
 

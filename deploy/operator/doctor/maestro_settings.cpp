@@ -248,11 +248,11 @@ std::vector<Finding> Judgement::findings() const {
 }  // namespace
 
 MaestroNeeds maestro_needs(const std::string& address, const ThrustShapeOptions& shape) {
-  constexpr std::string_view kScheme = "maestro:";
+  constexpr std::string_view kMaestro = "maestro:";
   MaestroNeeds needs;
   try {
-    if (address.starts_with(kScheme)) {
-      needs.options = maestro_options({address.substr(kScheme.size()), maestro_settings()});
+    if (address.starts_with(kMaestro)) {
+      needs.options = maestro_options({address.substr(kMaestro.size()), maestro_settings()});
     }
     ThrustShapeOptions at_once = shape;
     at_once.slew_per_s = 0.0;
