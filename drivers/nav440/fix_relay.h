@@ -26,7 +26,7 @@ class Nav440FixRelay {
   static constexpr std::size_t kCapacity = 16;
 
   // What is known of the unit by its last poll.
-  struct State {
+  struct alignas(2) State {  // clang takes a lock for an atomic that is not aligned to its size
     bool is_connected = false;
     DeviceFault fault = DeviceFault::kNone;
   };
@@ -56,7 +56,7 @@ class Nav440FixRelay {
   [[nodiscard]] State state() const noexcept { return state_.load(std::memory_order_acquire); }
 
  private:
-  static_assert(std::atomic<State>::is_always_lock_free);
+  static_assert(sizeof(State) == alignof(State) && std::atomic<State>::is_always_lock_free);
   static_assert(std::atomic<std::size_t>::is_always_lock_free);
 
   std::array<PositionFix, kCapacity> ring_{};
