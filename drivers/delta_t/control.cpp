@@ -14,8 +14,8 @@ constexpr std::uint8_t kWideBeams = 0;    // 3 degrees
 constexpr std::uint8_t kProfileMode = 3;  // without which there are no profile points
 constexpr std::uint8_t kPlus180Low = 180;
 
-template <std::size_t N>
-[[nodiscard]] std::uint8_t code_of(const std::array<int, N>& values, int value) noexcept {
+template <std::size_t kSize>
+[[nodiscard]] std::uint8_t code_of(const std::array<int, kSize>& values, int value) noexcept {
   const auto found = std::find(values.begin(), values.end(), value);
   return static_cast<std::uint8_t>((found == values.end() ? values.end() - 1 : found) -
                                    values.begin());

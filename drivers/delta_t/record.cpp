@@ -23,11 +23,11 @@ constexpr double kMostSoundSpeed_m_s = 1700.0;
 constexpr double kRangeTolerance = 0.02;
 constexpr double kMillimetresInCentimetre = 10.0;
 
-template <std::size_t N>
-[[nodiscard]] Text<N> text_at(Bytes bytes, std::size_t at) noexcept {
-  Text<N> text{};
+template <std::size_t kSize>
+[[nodiscard]] Text<kSize> text_at(Bytes bytes, std::size_t at) noexcept {
+  Text<kSize> text{};
   std::transform(bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                 bytes.begin() + static_cast<std::ptrdiff_t>(at + N), text.begin(),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(at + kSize), text.begin(),
                  [](std::uint8_t byte) { return static_cast<char>(byte); });
   return text;
 }

@@ -10,12 +10,12 @@ namespace lodesman {
 namespace {
 
 // One of the numbers that the program knows.
-template <std::size_t N>
+template <std::size_t kSize>
 [[nodiscard]] int listed(const DeviceAddress& address, std::string_view setting, int otherwise,
-                         const std::array<int, N>& numbers) {
-  std::array<std::string, N> texts;
+                         const std::array<int, kSize>& numbers) {
+  std::array<std::string, kSize> texts;
   std::vector<std::string_view> words;
-  for (std::size_t i = 0; i < N; ++i) {
+  for (std::size_t i = 0; i < kSize; ++i) {
     texts[i] = std::to_string(numbers[i]);
     words.emplace_back(texts[i]);
   }

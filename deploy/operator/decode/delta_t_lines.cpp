@@ -13,8 +13,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Texts of a device may hold anything.
-template <std::size_t N>
-[[nodiscard]] std::string printed(const Text<N>& text) {
+template <std::size_t kSize>
+[[nodiscard]] std::string printed(const Text<kSize>& text) {
   std::string shown{text_of(text)};
   std::replace_if(
       shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
