@@ -12,6 +12,7 @@
 #include "drivers/gpsd/gpsd_receiver.h"
 #include "drivers/stream/memory_line.h"
 #include "tests/support/catch.h"
+#include "tests/support/fixes_now.h"
 
 namespace lodesman::testing {
 
@@ -69,19 +70,7 @@ class Wired {
   void pass(Duration span) { now += span; }
 
   [[nodiscard]] std::vector<PositionFix> fixes() {
-    std::vector<PositionFix> given;
-    for (int i = 0; i < 64; ++i) {
-      const auto reading = driver.poll(now);
-      if (reading.status == ReadStatus::kFresh) {
-        given.push_back(reading.sample);
-      } else if (reading.status == ReadStatus::kCorrupt) {
-        ++corrupt;
-      } else {
-        last = reading.status;
-        break;
-      }
-    }
-    return given;
+    return testing::fixes_now(driver, now, corrupt, last);
   }
   // What a report brings, and a second passes.
   [[nodiscard]] std::vector<PositionFix> fixes_of(const Told& told) {

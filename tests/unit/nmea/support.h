@@ -10,6 +10,7 @@
 #include "drivers/nmea/nmea_receiver.h"
 #include "drivers/stream/memory_line.h"
 #include "tests/support/catch.h"
+#include "tests/support/fixes_now.h"
 #include "tests/unit/nmea/sentence_lines.h"
 
 namespace lodesman::testing {
@@ -31,19 +32,7 @@ class Wired {
 
   // All fixes that there are now.
   [[nodiscard]] std::vector<PositionFix> fixes() {
-    std::vector<PositionFix> given;
-    for (int i = 0; i < 64; ++i) {
-      const auto reading = driver.poll(now);
-      if (reading.status == ReadStatus::kFresh) {
-        given.push_back(reading.sample);
-      } else if (reading.status == ReadStatus::kCorrupt) {
-        ++corrupt;
-      } else {
-        last = reading.status;
-        break;
-      }
-    }
-    return given;
+    return testing::fixes_now(driver, now, corrupt, last);
   }
   // What an epoch brings, and a second passes.
   [[nodiscard]] std::vector<PositionFix> fixes_of(const Fixed& fix) {
