@@ -100,9 +100,10 @@ namespace {
   const TomlTable zones = configuration.table("zones");
   options.zones.hull_radius_m = zones.number("hull_radius_m", Range::between(0.0, 10.0));
   options.zones.margin_m = zones.number("margin_m", Range::between(0.0, 20.0));
-  options.zones.margin_per_speed_s = zones.number("margin_per_speed_s", Range::between(0.0, 20.0));
-  options.zones.margin_per_turning_radius =
-      zones.number("margin_per_turning_radius", Range::between(0.0, 20.0));
+  options.zones.margin_per_stopping_way =
+      zones.number("margin_per_stopping_way", Range::between(0.0, 20.0));
+  options.zones.margin_per_turning_way =
+      zones.number("margin_per_turning_way", Range::between(0.0, 20.0));
   options.zones.least_margin_m = zones.number("least_margin_m", Range::between(0.0, 20.0));
   options.zones.doubt_sigmas = zones.number("doubt_sigmas", Range::between(0.0, 10.0));
   options.zones.own_doubt_share = zones.number("own_doubt_share", Range::between(0.0, 1.0));
@@ -124,12 +125,6 @@ namespace {
   options.response.hull_half_length_m =
       vehicle.number("hull_length_m", Range::above(0.0, 100.0)) / 2.0;
   options.response.hull_half_beam_m = vehicle.number("hull_beam_m", Range::above(0.0, 50.0)) / 2.0;
-  options.response.surge_time_s = vehicle.number("surge_time_s", Range::above(0.0, 100.0));
-  options.response.turn_rate_max_rad_s =
-      vehicle.number("turn_rate_max_rad_s", Range::above(0.0, 5.0));
-  options.zones.turn_rate_max_rad_s = options.response.turn_rate_max_rad_s;
-  options.response.heading_gain_per_s =
-      vehicle.number("heading_gain_per_s", Range::above(0.0, 100.0));
   return options;
 }
 
@@ -152,7 +147,7 @@ namespace {
   model.sway_drag_n_s2_per_m2 = any("sway_drag_n_s2_per_m2", 1e6);
   model.yaw_drag_n_m_s = positive("yaw_drag_n_m_s", 1e7);
   model.yaw_drag_n_m_s2 = any("yaw_drag_n_m_s2", 1e7);
-  model.turning_n_m_per_head_ref = any("turning_n_m_per_head_ref", 1e4);
+  model.turning_n_m_per_head_ref = positive("turning_n_m_per_head_ref", 1e4);
   return model;
 }
 
@@ -200,15 +195,12 @@ HighLevelOptions read_high_level_options(const TomlTable& configuration, const S
   replanner.previous_path_max_age =
       planner.duration("previous_path_max_age_s", Range::between(0.0, 1e6));
   PilotOptions pilot = read_pilot_options(configuration);
-  options.controller.heading_lead_s =
+  options.controller.steering.heading_lead_s =
       configuration.table("pilot").number("heading_lead_s", Range::between(0.0, 10.0));
   options.controller.look_ahead_s =
       configuration.table("pilot").number("look_ahead_s", Range::between(0.0, 60.0));
   pilot.look_ahead_s = options.controller.look_ahead_s;
   options.controller.look_ahead_m = pilot.response.look_ahead_m;
-  if (planner.choice("space", {"world", "sonar_view"}) == 0) {
-    replanner.pilot = pilot;
-  }
   options.planner.progress.patience =
       configuration.table("progress").duration("patience_s", Range::between(1.0, 3600.0));
   const TomlTable guidance = configuration.table("guidance");
@@ -217,19 +209,24 @@ HighLevelOptions read_high_level_options(const TomlTable& configuration, const S
   options.planner.mission.waypoint_radius_m = options.controller.waypoint_radius_m;
   options.planner.mission.speeds = speeds;
   const TomlTable control = configuration.table("control");
-  options.controller.heading_gain_per_deg =
+  options.controller.steering.heading_gain_per_deg =
       control.number("heading_gain_per_deg", Range::above(0.0, 100.0));
   const TomlTable estimator = configuration.table("estimator");
   auto& reckoning = options.estimator.dead_reckoning;
   reckoning.step = estimator.duration("dead_reckoning_step_s", Range::between(0.01, 1.0));
   const double k_m_s = estimator.number("speed_per_surge_ref_m_s", Range::between(0.0, 1.0));
   reckoning.speeds = k_m_s > 0.0 ? SpeedTable::proportional(k_m_s) : speeds;
-  options.estimator.surge_lag = estimator.duration("surge_lag_s", Range::between(0.0, 100.0));
+  options.estimator.surge_at_once = k_m_s > 0.0;
   options.estimator.current_time =
       estimator.duration("current_time_s", Range::between(0.0, 1000.0));
   options.estimator.antenna = read_place_aboard(configuration.table("mounting"), "antenna_m");
   options.estimator.filter = read_pose_filter_options(configuration);
   options.estimator.filter.speeds = speeds;
+  pilot.response.model = VehicleModel{options.estimator.filter.vehicle, speeds};
+  pilot.response.steering = options.controller.steering;
+  if (planner.choice("space", {"world", "sonar_view"}) == 0) {
+    replanner.pilot = pilot;
+  }
   return options;
 }
 

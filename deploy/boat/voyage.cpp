@@ -68,7 +68,7 @@ DeskOptions desk_options(const BoatConfig& config, const Voyage& voyage) {
   const auto& pilot = config.high.planner.replanner.pilot;
   options.obeys_areas = pilot.has_value();
   options.tunables.speed_limit_m_s = config.speed_limit_m_s;
-  options.tunables.heading_gain_per_deg = config.high.controller.heading_gain_per_deg;
+  options.tunables.heading_gain_per_deg = config.high.controller.steering.heading_gain_per_deg;
   if (pilot) {
     options.tunables.margin_m = pilot->zones.margin_m;
     options.tunables.side_gain_m = pilot->side_gain_m;

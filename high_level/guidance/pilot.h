@@ -33,8 +33,8 @@ class Pilot {
 
   // A mission starts: nothing is kept to.
   void start() noexcept;
-  // Sails at that speed [m/s] > 0 through the water from here on, where nothing is in the way.
-  void sail_at(double speed_m_s) noexcept;
+  // Sails at that speed from here on, where nothing is in the way.
+  void sail_at(const Cruise& cruise) noexcept;
   // Takes on what an operator changed.
   void tune(const Tunables& tunables) noexcept;
 

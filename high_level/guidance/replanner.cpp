@@ -50,9 +50,9 @@ void Replanner::ask(const Pending& pending) noexcept {
   planned_frame_ = pending.frame;
 }
 
-void Replanner::sail_at(double speed_m_s) noexcept {
+void Replanner::sail_at(const Cruise& cruise) noexcept {
   if (pilot_) {
-    pilot_->sail_at(speed_m_s);
+    pilot_->sail_at(cruise);
   }
 }
 

@@ -9,7 +9,7 @@ EstimatorTask::EstimatorTask(Blackboard& board, Role role, const EstimatorOption
     : options_{options},
       local_frame_{options.origin},
       dead_reckoning_{options.dead_reckoning, options.start},
-      surge_{options.surge_lag},
+      surge_{VehicleModel{options.filter.vehicle, options.filter.speeds}},
       drift_{options.current_time},
       filter_{options.filter},
       attitude_{board.attitude},
@@ -51,7 +51,8 @@ void EstimatorTask::step_filter(Time now, const Attitude& attitude,
 
 void EstimatorTask::step_reckoning(Time now, const Attitude& attitude, int surge_ref) noexcept {
   const Heading heading = Heading::clockwise_from_y_rad(attitude.heading_rad);
-  const double surge_m_s = surge_.follow(now, dead_reckoning_.speed_m_s(surge_ref));
+  const double surge_m_s =
+      options_.surge_at_once ? dead_reckoning_.speed_m_s(surge_ref) : surge_.follow(now, surge_ref);
   if (!update_position(now, heading, surge_ref)) {
     return;
   }
@@ -88,7 +89,7 @@ void EstimatorTask::publish(const VehicleState& state, Time now) noexcept {
 
 void EstimatorTask::begin_anew() noexcept {
   dead_reckoning_ = DeadReckoning{options_.dead_reckoning, options_.start};
-  surge_ = Lag{options_.surge_lag};
+  surge_ = Surge{VehicleModel{options_.filter.vehicle, options_.filter.speeds}};
   drift_ = DriftEstimate{options_.current_time};
   filter_.begin_anew();
 }

@@ -9,8 +9,8 @@
 
 #include "high_level/estimate/dead_reckoning.h"
 #include "high_level/estimate/drift.h"
-#include "high_level/estimate/lag.h"
 #include "high_level/estimate/pose_filter.h"
+#include "high_level/estimate/surge.h"
 #include "mid_level/base/geodesy.h"
 #include "mid_level/runtime/task.h"
 
@@ -19,7 +19,8 @@ namespace lodesman {
 struct EstimatorOptions {
   PositionSource source = PositionSource::kDeadReckoning;
   DeadReckoningOptions dead_reckoning;
-  Duration surge_lag{};      // [0, 100 s] of the speed behind SurgeRef; the paper knows none
+  // Eqs 24-25: the speed is what SurgeRef holds at once. False: it follows as the filter's vehicle.
+  bool surge_at_once = false;
   Duration current_time{};   // [0, 1000 s] in which a current is learnt; 0: none is looked for
   PoseFilterOptions filter;  // of source `gps`
   WorldPoint start;          // where dead reckoning starts
@@ -49,7 +50,7 @@ class EstimatorTask final : public Task {
   EstimatorOptions options_;
   LocalFrame local_frame_;
   DeadReckoning dead_reckoning_;
-  Lag surge_;
+  Surge surge_;
   DriftEstimate drift_;
   PoseFilter filter_;
   Reader<Attitude> attitude_;

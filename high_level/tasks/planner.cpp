@@ -148,7 +148,7 @@ void PlannerTask::sail_as_the_mission_says(Time now) noexcept {
   const MissionStatus& status = mission_.status();
   if (status.surge_ref != surge_ref_) {
     surge_ref_ = status.surge_ref;
-    replanner_.sail_at(status.speed_m_s);
+    replanner_.sail_at({status.surge_ref, status.speed_m_s});
     progress_.sail_at(status.speed_m_s);
   }
   if (status.started != started_) {

@@ -60,7 +60,8 @@ const std::vector<SymbolRule>& symbol_rules() {
         "low_level/tasks/thruster.cpp", "low_level/sonar/blob.cpp",
         "low_level/sonar/known_obstacles.cpp", "low_level/sonar/protection.cpp",
         "high_level/control", "high_level/estimate", "high_level/guidance/manoeuvre.cpp",
-        "high_level/guidance/route.cpp", "high_level/guidance/waypoints.cpp",
+        "high_level/guidance/rollout.cpp", "high_level/guidance/route.cpp",
+        "high_level/guidance/steering.cpp", "high_level/guidance/waypoints.cpp",
         "high_level/guidance/zones.cpp"},
        {}},
   };

@@ -9,7 +9,7 @@ namespace {
 
 [[nodiscard]] ControllerOptions paper_options() {
   ControllerOptions options;
-  options.heading_gain_per_deg = 3.5;
+  options.steering.heading_gain_per_deg = 3.5;
   options.waypoint_radius_m = 0.5;
   return options;
 }
