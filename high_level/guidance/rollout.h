@@ -49,7 +49,7 @@ class Rollout {
   Rollout(const VehicleResponse& response, const Route& route, const OwnMotion& own,
           const Manoeuvre& manoeuvre, double speed_share_max, bool stay_at_end) noexcept;
 
-  // Goes on by (0, kPartMax_s], unless it has arrived.
+  // Goes on, unless it has arrived, by (0, kPartMax_s]; by more only where it goes straight on.
   void sail(double part_s) noexcept;
 
   [[nodiscard]] const VehicleMotion& motion() const noexcept { return motion_; }
