@@ -83,12 +83,12 @@ namespace {
           table.duration("sonar_view_period_s", Range::between(0.05, 60.0))};
 }
 
-[[nodiscard]] GeoPoint read_origin(const TomlTable& table) {
+[[nodiscard]] std::optional<GeoPoint> read_origin(const TomlTable& table) {
   const auto deg = table.pair("deg", Range::between(-180.0, 180.0));
   if (std::abs(deg[0]) > 85.0) {
     table.refuse("deg", "latitude must be at least -85 and at most 85");
   }
-  return {deg[0], deg[1]};
+  return table.boolean("at_start") ? std::nullopt : std::optional{GeoPoint{deg[0], deg[1]}};
 }
 
 [[nodiscard]] std::optional<PositionSource> read_position_source(const TomlTable& estimator) {

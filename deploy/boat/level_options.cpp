@@ -70,6 +70,8 @@ LowLevelOptions read_low_level_options(const TomlTable& configuration) {
   if (zones.choice("source", {"own", "protection"}) == 0) {
     options.delta_t.own_zones = own;
   }
+  options.position.far_max_m =
+      configuration.table("origin").number("far_max_m", Range::above(0.0, 1e6));
   const TomlTable battery = configuration.table("battery");
   const TomlTable mounting = configuration.table("mounting");
   options.heading_turn_rad = read_turn(mounting, "heading_deg");
@@ -230,6 +232,9 @@ HighLevelOptions read_high_level_options(const TomlTable& configuration, const S
   options.estimator.antenna = read_place_aboard(configuration.table("mounting"), "antenna_m");
   options.estimator.filter = read_pose_filter_options(configuration);
   options.estimator.filter.speeds = speeds;
+  options.estimator.origin_search = {
+      configuration.table("origin").number("at_start_sigma_m", Range::above(0.0, 100.0)),
+      options.estimator.filter.gate.sigma_unknown_m};
   return options;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lodesman-high: estimator, re-planner, waypoint tracking, P controller and mission; owns the
 // command socket.
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <optional>
@@ -55,10 +56,13 @@ class WayIn {
   std::optional<TokenFile> token_file_;
 };
 
-// The mission's last word, on a segment that is left or on one that was found.
-[[nodiscard]] std::optional<Stamped<MissionStatus>> last_mission(const SharedBlackboard& board) {
-  Reader<MissionStatus> mission{board->mission_status};
-  const auto* last = mission.latest();
+// A channel's last word, on a segment that is left or on one that was found.
+template <class Value>
+using Last = std::optional<Stamped<Value>>;
+template <class Channel>
+[[nodiscard]] Last<typename Channel::Value> last_on(const Channel& channel) {
+  Reader<typename Channel::Value> reader{channel};
+  const auto* last = reader.latest();
   return last != nullptr ? std::optional{*last} : std::nullopt;
 }
 
@@ -66,7 +70,7 @@ void report_what_was_found(const SharedBlackboard& board) {
   if (!board.found_dead()) {
     return;
   }
-  const auto last = last_mission(board);
+  const auto last = last_on(board->mission_status);
   spdlog::warn("an earlier lodesman-high died; its mission was {}",
                last ? to_string(last->value.state) : "not yet begun");
 }
@@ -135,6 +139,23 @@ class LowLevelWatch {
   bool alive_ = true;
 };
 
+// Says once where an origin lies that the first fixes gave.
+class OriginWatch {
+ public:
+  explicit OriginWatch(const SharedBlackboard& board) : origin_{board->world_origin} {}
+  void look() {
+    while (const auto* told = origin_.next()) {
+      if (const WorldOrigin& o = told->value; o.source == OriginSource::kFirstFix) {
+        say(fmt::format("lodesman-high: the world's origin is {:.7f}, {:.7f}, by the first fixes",
+                        o.latitude_deg, o.longitude_deg));
+      }
+    }
+  }
+
+ private:
+  Reader<WorldOrigin> origin_;
+};
+
 // The threads of the tasks, and who notices when one of them hangs.
 struct RunningTasks {
   RunningTasks(std::span<const TaskEntry> tasks, SharedBlackboard& board)
@@ -163,8 +184,10 @@ void sail(SharedBlackboard& board, const BoatConfig& config, const Voyage& voyag
   std::optional<RunningTasks> running;
   running.emplace(tasks, board);
   LowLevelWatch low{board};
+  OriginWatch origin{board};
   wait_for_stop([&] {
     low.look();
+    origin.look();
     if (const bool silent = launcher_is_silent(); silent && running) {
       running.reset();
       spdlog::warn("the launcher has fallen silent: neutral until it is heard again");
@@ -178,12 +201,18 @@ void sail(SharedBlackboard& board, const BoatConfig& config, const Voyage& voyag
   });
 }
 
-// What the mission was is told to the new segment as if it had been there all along, so that the
-// planner finds there what every restarted one finds: an abort stands, and nothing sails by itself.
-void hand_on(const std::optional<Stamped<MissionStatus>>& mission, SharedBlackboard& board) {
+// What the mission was, and where the world's origin is, is told to the new segment as if it had
+// been there all along, so that a restarted level finds there what every other one finds: an abort
+// stands, nothing sails by itself, and the origin stays.
+void hand_on(const Last<MissionStatus>& mission, const Last<WorldOrigin>& origin,
+             Blackboard& board) {
   if (mission) {
-    Writer<MissionStatus>{board.writable().mission_status, Role::kHigh, "mission_status"}.publish(
+    Writer<MissionStatus>{board.mission_status, Role::kHigh, "mission_status"}.publish(
         mission->value, mission->stamp);
+  }
+  if (origin) {
+    Writer<WorldOrigin>{board.world_origin, Role::kHigh, "world_origin"}.publish(origin->value,
+                                                                                 origin->stamp);
   }
 }
 
@@ -205,14 +234,15 @@ int run(const HighOptions& options) {
     if (stop_asked()) {
       break;
     }
-    const auto mission = last_mission(*board);
+    const auto mission = last_on((*board)->mission_status);
+    const auto origin = last_on((*board)->world_origin);
     start_by_itself &= !mission || mission->value.started == Time{};
     spdlog::warn("a new lodesman-low has made segment {} anew: beginning anew on it",
                  config.segment);
     board.reset();
     board = attach(config.segment, Attachment::kAgain);
     if (board) {
-      hand_on(mission, *board);
+      hand_on(mission, origin, board->writable());
     }
   }
   return kExitDone;

@@ -31,6 +31,7 @@ BoatStatus::BoatStatus(const Blackboard& board, bool arms_by_itself)
     : readiness_{board, arms_by_itself},
       mission_{board.mission_status},
       state_{board.vehicle_state},
+      origin_{board.world_origin},
       plan_{board.plan},
       helm_{board.helm_command},
       thrust_{board.thrust_status},
@@ -74,6 +75,11 @@ void BoatStatus::add_place(ordered_json& reply, Time now) {
     reply["position_trust"] = to_string(state->value.trust);
     reply["position_sigma_m"] =
         std::sqrt(state->value.position_xx_m2 + state->value.position_yy_m2);
+  }
+  reply["origin"] = nullptr;  // until it is known
+  if (const auto* origin = origin_.latest(); origin != nullptr) {
+    reply["origin"] = {{"deg", {origin->value.latitude_deg, origin->value.longitude_deg}},
+                       {"by", to_string(origin->value.source)}};
   }
   if (const auto* plan = plan_.latest(); plan != nullptr) {
     reply["plan"] = {{"id", plan->value.id},

@@ -24,6 +24,7 @@ class BoatStatus {
   Readiness readiness_;
   Reader<MissionStatus> mission_;
   Reader<VehicleState> state_;
+  Reader<WorldOrigin> origin_;
   Reader<Plan> plan_;
   Reader<HelmCommand> helm_;
   Reader<ThrustStatus> thrust_;

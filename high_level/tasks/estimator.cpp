@@ -7,7 +7,7 @@ namespace lodesman {
 
 EstimatorTask::EstimatorTask(Blackboard& board, Role role, const EstimatorOptions& options)
     : options_{options},
-      local_frame_{options.origin},
+      origin_search_{options.origin_search},
       dead_reckoning_{options.dead_reckoning, options.start},
       surge_{options.surge_lag},
       drift_{options.current_time},
@@ -16,9 +16,20 @@ EstimatorTask::EstimatorTask(Blackboard& board, Role role, const EstimatorOption
       position_fix_{board.position_fix},
       world_truth_{board.world_truth},
       thrust_applied_{board.thrust_applied},
-      states_{writer_of(board, board.vehicle_state, role)} {}
+      states_{writer_of(board, board.vehicle_state, role)},
+      origins_{writer_of(board, board.world_origin, role)} {
+  Reader<WorldOrigin> before{board.world_origin};
+  const auto* found = before.latest();
+  if (options_.origin) {
+    local_frame_.move_to(*options_.origin);
+  } else if (found != nullptr && found->value.source == OriginSource::kFirstFix) {
+    local_frame_.move_to({found->value.latitude_deg, found->value.longitude_deg});
+    origin_is_told_ = true;
+  }
+}
 
 void EstimatorTask::step(Time now) noexcept {
+  tell_origin(now);
   const auto* attitude = attitude_.fresh(now, max_age::kAttitude);
   if (attitude == nullptr) {
     return;
@@ -33,13 +44,40 @@ void EstimatorTask::step(Time now) noexcept {
   }
 }
 
+void EstimatorTask::tell_origin(Time now) noexcept {
+  if (origin_is_told_ || !options_.origin) {
+    return;
+  }
+  origin_is_told_ = true;
+  origins_.publish({options_.origin->latitude_deg, options_.origin->longitude_deg}, now);
+}
+
+// Where the boat is, and not its antenna: that is what a person takes the place of the start for.
+bool EstimatorTask::has_origin(const PositionFix& fix, Heading heading, Time now) noexcept {
+  if (local_frame_.is_fixed()) {
+    return true;
+  }
+  if (!origin_search_.take(fix)) {
+    return false;
+  }
+  local_frame_.move_to({fix.latitude_deg, fix.longitude_deg});
+  const VehiclePose antenna{WorldPoint{}, heading};
+  const GeoPoint boat = local_frame_.to_geo(antenna.to_world({-options_.antenna.xy_m}));
+  local_frame_.move_to(boat);
+  origins_.publish({boat.latitude_deg, boat.longitude_deg, OriginSource::kFirstFix, fix.sigma_m,
+                    fix.measured, fix.utc_ns},
+                   now);
+  origin_is_told_ = true;
+  return true;
+}
+
 void EstimatorTask::step_filter(Time now, const Attitude& attitude,
                                 const ThrustApplied& applied) noexcept {
   filter_.advance(now, applied.surge_ref, applied.head_ref, attitude);
   const Heading heading = Heading::clockwise_from_y_rad(attitude.heading_rad);
   while (const auto* fix = position_fix_.next()) {
     const PositionFix& f = fix->value;
-    if (now - f.measured <= max_age::kPositionFix) {
+    if (now - f.measured <= max_age::kPositionFix && has_origin(f, heading, now)) {
       const VehiclePose antenna{local_frame_.to_world({f.latitude_deg, f.longitude_deg}), heading};
       (void)filter_.fix(antenna.to_world({-options_.antenna.xy_m}), f.sigma_m, f.measured);
     }

@@ -2,14 +2,18 @@
 // The estimator task: where the vehicle is, from what its source of position gives, the AHRS's
 // heading and the thrust that was applied. Source `gps` is the pose filter; `dead_reckoning` is eqs
 // 15-25 of the paper, and `truth` the simulated world's word. It publishes nothing while its inputs
-// are stale, and begins anew where what comes out is no estimate.
+// are stale, and begins anew where what comes out is no estimate. It also fixes the origin of the
+// world, once: as it is set, or at the first fixes that are believed (source `gps`). One that
+// stands on the blackboard from such fixes is kept: this program may have been started again.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "high_level/estimate/dead_reckoning.h"
 #include "high_level/estimate/drift.h"
 #include "high_level/estimate/lag.h"
+#include "high_level/estimate/origin_search.h"
 #include "high_level/estimate/pose_filter.h"
 #include "mid_level/base/geodesy.h"
 #include "mid_level/runtime/task.h"
@@ -23,8 +27,10 @@ struct EstimatorOptions {
   Duration current_time{};   // [0, 1000 s] in which a current is learnt; 0: none is looked for
   PoseFilterOptions filter;  // of source `gps`
   WorldPoint start;          // where dead reckoning starts
-  GeoPoint origin;           // of the world frame
   VehiclePoint antenna;      // of the receiver
+  std::optional<GeoPoint> origin{};  // of the world frame; empty: by the first fixes, as the search
+                                     // finds them
+  OriginSearchOptions origin_search;
 };
 
 class EstimatorTask final : public Task {
@@ -38,6 +44,10 @@ class EstimatorTask final : public Task {
  private:
   // What is reckoned with, at its beginning.
   void begin_anew() noexcept;
+  // Publishes the origin that was known before any fix, and was not told yet.
+  void tell_origin(Time now) noexcept;
+  // Whether the world has its origin, with this fix.
+  [[nodiscard]] bool has_origin(const PositionFix& fix, Heading heading, Time now) noexcept;
   // Source `gps`.
   void step_filter(Time now, const Attitude& attitude, const ThrustApplied& applied) noexcept;
   // The others.
@@ -48,6 +58,8 @@ class EstimatorTask final : public Task {
 
   EstimatorOptions options_;
   LocalFrame local_frame_;
+  OriginSearch origin_search_;
+  bool origin_is_told_ = false;
   DeadReckoning dead_reckoning_;
   Lag surge_;
   DriftEstimate drift_;
@@ -57,6 +69,7 @@ class EstimatorTask final : public Task {
   Reader<WorldTruth> world_truth_;
   Reader<ThrustApplied> thrust_applied_;
   Writer<VehicleState> states_;
+  Writer<WorldOrigin> origins_;
 };
 
 }  // namespace lodesman

@@ -58,7 +58,7 @@ using nlohmann::ordered_json;
 
 OperatorDesk::OperatorDesk(Blackboard& board, Role role, DeskOptions options, Now now)
     : options_{std::move(options)},
-      frame_{options_.origin},
+      origin_{board.world_origin},
       now_{std::move(now)},
       made_{now_()},
       readiness_{board, options_.arms_by_itself},
@@ -71,6 +71,9 @@ OperatorDesk::OperatorDesk(Blackboard& board, Role role, DeskOptions options, No
       mission_{board.mission_status},
       state_{board.vehicle_state},
       boat_status_{board, options_.arms_by_itself} {
+  if (options_.origin) {
+    frame_.move_to(*options_.origin);
+  }
   // Goes on counting where a program that was here before has left off.
   Reader<OperatorCommand> before{board.operator_command};
   if (const auto* last = before.latest(); last != nullptr) {
@@ -85,6 +88,14 @@ OperatorDesk::OperatorDesk(Blackboard& board, Role role, DeskOptions options, No
       lay_out(*options_.at_hand);
     }
   }
+}
+
+const LocalFrame& OperatorDesk::frame() {
+  const auto* fixed = options_.origin ? nullptr : origin_.latest();
+  if (fixed != nullptr && fixed->value.source == OriginSource::kFirstFix) {
+    frame_.move_to({fixed->value.latitude_deg, fixed->value.longitude_deg});
+  }
+  return frame_;
 }
 
 void OperatorDesk::require_possible(const MissionDefinition& mission) const {
@@ -198,7 +209,7 @@ Answer OperatorDesk::order(const CommandRequest& request) {
     try {
       if (request.mission) {
         auto mission = std::make_shared<MissionDefinition>(
-            read_mission_text(*request.mission, "mission", options_.mission, &frame_));
+            read_mission_text(*request.mission, "mission", options_.mission, &frame()));
         require_possible(*mission);
         order.mission = std::move(mission);
       }

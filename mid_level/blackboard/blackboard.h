@@ -14,6 +14,7 @@
 #include "mid_level/messages/command.h"
 #include "mid_level/messages/health.h"
 #include "mid_level/messages/mission.h"
+#include "mid_level/messages/origin.h"
 #include "mid_level/messages/path.h"
 #include "mid_level/messages/sonar.h"
 #include "mid_level/messages/tracks.h"
@@ -43,6 +44,7 @@ struct Blackboard {
   Channel<WorldTruth, 256> world_truth;
   Channel<Attitude, 64> attitude;
   Channel<PositionFix, 16> position_fix;
+  Channel<WorldOrigin, 4> world_origin;
   Channel<VehicleState, 64> vehicle_state;
   Channel<SonarPing, 4> sonar_ping;
   Channel<SonarObstacles, 16> sonar_obstacles;
@@ -97,6 +99,8 @@ void for_each_channel(Board& board, Visit visit) {
   visit(ChannelInfo{"attitude", Role::kLow, "ahrs", max_age::kAttitude}, board.attitude);
   visit(ChannelInfo{"position_fix", Role::kLow, "position", max_age::kPositionFix},
         board.position_fix);
+  visit(ChannelInfo{"world_origin", Role::kHigh, "estimator", max_age::kNoLimit},
+        board.world_origin);
   visit(ChannelInfo{"vehicle_state", Role::kHigh, "estimator", max_age::kVehicleState},
         board.vehicle_state);
   visit(ChannelInfo{"sonar_ping", Role::kLow, "delta_t", max_age::kSonarFrame}, board.sonar_ping);

@@ -29,6 +29,9 @@ using Pair = std::array<double, 2>;
   if (frame == nullptr) {
     return {};
   }
+  if (!frame->is_fixed()) {
+    table.refuse(key, "the origin of the boat's world is not fixed yet: no good fix has come");
+  }
   const WorldPoint at = frame->to_world({pair[0], pair[1]});
   if (!(at.xy_m.cwiseAbs().maxCoeff() <= kCoordinate_m.max)) {
     table.refuse(key, "is farther than 100 km from the origin of the boat's world");

@@ -106,7 +106,8 @@ struct RunResult {
   std::uint64_t stale_events = 0;
   std::vector<Notice> notices;  // the first kMaxNotices
   double real_time_factor = 0.0;
-  std::optional<std::string> recording_hash;  // lock-step only
+  std::optional<std::string> recording_hash;        // lock-step only
+  std::optional<std::array<double, 2>> origin_deg;  // [deg] latitude, longitude of the world's
   std::string version;
   // Published and overwritten while nobody looked: lengths and counts above lack them. Not written.
   std::uint64_t truths_missed = 0;
@@ -116,6 +117,7 @@ struct RunResult {
 
 struct RunRecord {
   RunResult result;
+  std::int64_t started_utc_ns = 0;  // [ns] since 1970, by the receiver; 0: it told none
   // Of a long run some of them, see KeptRows and KeptPlans; the files have all.
   std::vector<TrajectoryRow> trajectory;
   std::vector<PlanRecord> plans;

@@ -61,6 +61,8 @@ RunWatcher::RunWatcher(const Blackboard& board, const Blackboard& truth, const S
       record_{blank_record(scenario, waypoint_radius_m)},
       mission_{board.mission_status},
       truth_{truth.world_truth},
+      origin_{board.world_origin},
+      fix_{board.position_fix},
       state_{board.vehicle_state},
       helm_{board.helm_command},
       thrust_{board.thrust_applied},
@@ -368,6 +370,14 @@ RunRecord RunWatcher::finish() {
     result.final_m = {truth.x_m, truth.y_m};
     result.goal_error_m = std::hypot(truth.x_m - record_.goal_m[0], truth.y_m - record_.goal_m[1]);
     result.estimate_error_m = std::hypot(truth.x_m - estimate_.x_m, truth.y_m - estimate_.y_m);
+  }
+  if (const auto* fix = fix_.latest();
+      fix != nullptr && fix->value.utc_ns != 0 && status_.first_started != Time{}) {
+    record_.started_utc_ns =
+        fix->value.utc_ns - (fix->value.measured - status_.first_started).count();
+  }
+  if (const auto* origin = origin_.latest(); origin != nullptr) {
+    result.origin_deg = {origin->value.latitude_deg, origin->value.longitude_deg};
   }
   result.mean_speed_m_s = result.time_s > 0.0 ? result.path_length_m / result.time_s : 0.0;
   result.side_flips = side_flips_.flips().count;

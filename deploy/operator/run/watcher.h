@@ -81,6 +81,8 @@ class RunWatcher {
 
   Reader<MissionStatus> mission_;
   Reader<WorldTruth> truth_;
+  Reader<WorldOrigin> origin_;
+  Reader<PositionFix> fix_;
   Reader<VehicleState> state_;
   Reader<HelmCommand> helm_;
   Reader<ThrustApplied> thrust_;

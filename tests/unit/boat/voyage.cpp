@@ -24,9 +24,17 @@ Voyage simulated(const BoatConfig& config) {
 
 TEST_CASE("voyage: a simulated boat lies in its scenario's waters, a real one where its fixes say",
           "[boat]") {
-  CHECK(simulated(config_with({})).origin.latitude_deg == Approx(35.0));
-  CHECK(simulated(config_with({"simulation.vessel=estimate"})).origin.latitude_deg == Approx(60.0));
-  CHECK(voyage_of(config_with({}), nullptr).origin.latitude_deg == Approx(60.0));
+  CHECK(simulated(config_with({})).origin.value().latitude_deg == Approx(35.0));
+  CHECK(simulated(config_with({"simulation.vessel=estimate"})).origin.value().latitude_deg ==
+        Approx(60.0));
+  CHECK(voyage_of(config_with({}), nullptr).origin.value().latitude_deg == Approx(60.0));
+}
+
+TEST_CASE("voyage: at_start leaves the origin to the first fixes, a scenario's own stands",
+          "[boat]") {
+  CHECK_FALSE(voyage_of(config_with({"origin.at_start=true"}), nullptr).origin);
+  CHECK(simulated(config_with({"origin.at_start=true"})).origin.value().latitude_deg ==
+        Approx(35.0));
 }
 
 TEST_CASE("voyage: the position comes from what there is, unless the configuration says from where",

@@ -110,3 +110,21 @@ TEST_CASE("speed table: read in rising order, else refused with its line", "[con
     CHECK_THROWS_AS(read_table(wrong), StartupError);
   }
 }
+
+TEST_CASE("mission: degrees are refused until the world's origin is known, metres are not",
+          "[mid_level][config]") {
+  const LocalFrame unknown;
+  const auto refused = [&](const char* text) {
+    try {
+      (void)read_mission_text(text, "m.toml", defaults(), &unknown);
+    } catch (const StartupError& error) {
+      return std::string{error.what()};
+    }
+    return std::string{};
+  };
+  const std::string why = ": the origin of the boat's world is not fixed yet: no good fix has come";
+  CHECK(refused("goal_deg = [35.0, 139.0]") == "m.toml:1: goal_deg" + why);
+  CHECK(refused("goal_m = [0.0, 9.0]\nwaypoints_deg = [[35.0, 139.0]]") ==
+        "m.toml:2: waypoints_deg" + why);
+  CHECK(refused("goal_m = [0.0, 9.0]").empty());
+}
