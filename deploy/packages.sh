@@ -10,9 +10,10 @@ test_packages="catch2"
 bench_packages="libbenchmark-dev"
 # For the presets asan, tsan, fuzz and tidy, and for the layout of the sources.
 clang_packages="clang libclang-rt-14-dev clang-tidy clang-format-14"
-# For tests/system/gpsd.cpp, which is skipped without it. No part of test_packages: its udev rules
-# hand USB serial adapters to gpsd, which probes them, on whatever machine it is installed.
-gpsd_packages="gpsd"
+# For tests/system/gpsd.cpp and, with gpsfake, gpsd_tracks.cpp, which are skipped without them. No
+# part of test_packages: gpsd's udev rules hand USB serial adapters to it, which it probes, on
+# whatever machine it is installed.
+gpsd_packages="gpsd gpsd-clients"
 # For tests/measure/suite_repeat.sh.
 load_packages="stress-ng"
 
