@@ -31,6 +31,7 @@ DeviceWatch::DeviceWatch(const Blackboard& board, const DeviceAddresses& address
                Reader<DeviceHealth>{board.device_health[3]}},
       arming_{board.thrust_status},
       battery_{board.battery_status},
+      guard_{board.guard_status},
       fixes_{board.position_fix} {}
 
 void DeviceWatch::say_news(Time now) {
@@ -38,6 +39,7 @@ void DeviceWatch::say_news(Time now) {
     look_at(static_cast<DeviceId>(i), now);
   }
   look_at_arming();
+  look_at_guard();
   look_at_clock();
 }
 
@@ -87,6 +89,27 @@ void DeviceWatch::look_at_clock() {
     spdlog::warn("{} by the receiver at {:.3f} s of the boat's clock; this machine is {:.0f} s {}",
                  told, boat_s, std::abs(ahead_s), ahead_s > 0.0 ? "ahead" : "behind");
   }
+}
+
+// A trip is told once, however short it was, and so is that it sees nothing.
+void DeviceWatch::look_at_guard() {
+  const auto* newest = guard_.latest();
+  if (newest == nullptr) {
+    return;
+  }
+  const GuardStatus& guard = newest->value;
+  if (guard.trips > told_trips_) {
+    spdlog::warn(
+        "guard: stopped at {:.2f} m/s ({}{})", guard.trip_speed_m_s, to_string(guard.reason),
+        guard.reason == GuardReason::kObstacle ? fmt::format(", {:.2f} m off", guard.distance_m)
+                                               : "");
+  }
+  told_trips_ = guard.trips;
+  const bool is_blind = guard.state == GuardState::kBlind;
+  if (is_blind != (told_guard_ == GuardState::kBlind)) {
+    spdlog::warn("guard: {}", is_blind ? "blind, there is no sonar frame" : "sees again");
+  }
+  told_guard_ = guard.state;
 }
 
 void DeviceWatch::look_at_arming() {

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/boat/level_options.h"
 
+#include <algorithm>
+
 #include "drivers/hal/thrust_shape.h"
 #include "mid_level/base/frames.h"
 #include "mid_level/base/startup_error.h"
+#include "mid_level/config/read_speed_table.h"
 
 namespace lodesman {
+namespace {
+
+constexpr double kLongestRamp_s = 10.0;
+
+}  // namespace
 
 SegmentationOptions read_segmentation_options(const TomlTable& table) {
   const auto count = [&table](std::string_view key, std::int64_t min, std::int64_t max) {
@@ -59,6 +67,69 @@ namespace {
   return to_rad(mounting.number(key, Range::between(-180.0, 180.0)));
 }
 
+[[nodiscard]] VehicleModelParameters read_vehicle_model(const TomlTable& vehicle) {
+  const auto positive = [&vehicle](std::string_view key, double most) {
+    return vehicle.number(key, Range::above(0.0, most));
+  };
+  const auto any = [&vehicle](std::string_view key, double most) {
+    return vehicle.number(key, Range::between(0.0, most));
+  };
+  VehicleModelParameters model;
+  model.mass_kg = positive("mass_kg", 1e6);
+  model.added_mass_surge_kg = any("added_mass_surge_kg", 1e6);
+  model.added_mass_sway_kg = any("added_mass_sway_kg", 1e6);
+  model.yaw_inertia_kg_m2 = positive("yaw_inertia_kg_m2", 1e7);
+  model.added_yaw_inertia_kg_m2 = any("added_yaw_inertia_kg_m2", 1e7);
+  model.surge_drag_n_s_per_m = positive("surge_drag_n_s_per_m", 1e6);
+  model.surge_drag_n_s2_per_m2 = any("surge_drag_n_s2_per_m2", 1e6);
+  model.sway_drag_n_s_per_m = positive("sway_drag_n_s_per_m", 1e6);
+  model.sway_drag_n_s2_per_m2 = any("sway_drag_n_s2_per_m2", 1e6);
+  model.yaw_drag_n_m_s = positive("yaw_drag_n_m_s", 1e7);
+  model.yaw_drag_n_m_s2 = any("yaw_drag_n_m_s2", 1e7);
+  model.turning_n_m_per_head_ref = any("turning_n_m_per_head_ref", 1e4);
+  return model;
+}
+
+[[nodiscard]] HullResponse read_hull_response(const TomlTable& configuration) {
+  const TomlTable vehicle = configuration.table("vehicle");
+  const VehicleModelParameters model = read_vehicle_model(vehicle);
+  HullResponse hull;
+  hull.mass_kg = model.mass_kg + model.added_mass_surge_kg;
+  hull.surge_drag_n_s_per_m = model.surge_drag_n_s_per_m;
+  hull.surge_drag_n_s2_per_m2 = model.surge_drag_n_s2_per_m2;
+  hull.yaw_inertia_kg_m2 = model.yaw_inertia_kg_m2 + model.added_yaw_inertia_kg_m2;
+  hull.yaw_drag_n_m_s = model.yaw_drag_n_m_s;
+  hull.yaw_drag_n_m_s2 = model.yaw_drag_n_m_s2;
+  hull.turning_n_m_per_head_ref = model.turning_n_m_per_head_ref;
+  hull.astern_share = configuration.table("guard").number("astern_share", Range::above(0.0, 1.0));
+  hull.speeds = read_speed_table(vehicle);
+  return hull;
+}
+
+// Until a box that ramps its thrust, and rests before it reverses, gives half of it.
+[[nodiscard]] Duration brake_delay(const ThrustShapeOptions& shape) {
+  const double ramp_s = shape.slew_per_s > 0.0 ? 0.5 / shape.slew_per_s : 0.0;
+  return shape.zero_pause + from_seconds(std::min(ramp_s, kLongestRamp_s));
+}
+
+[[nodiscard]] GuardOptions read_guard_options(const TomlTable& configuration) {
+  const TomlTable guard = configuration.table("guard");
+  const TomlTable vehicle = configuration.table("vehicle");
+  GuardOptions options;
+  options.is_on = guard.boolean("enabled");
+  options.margin_m = guard.number("margin_m", Range::between(0.0, 20.0));
+  options.release_m = guard.number("release_m", Range::between(0.0, 20.0));
+  options.reaction = guard.duration("reaction_s", Range::between(0.0, 2.0));
+  options.silence_neutral = guard.duration("silence_neutral_s", Range::between(0.0, 60.0));
+  options.brake_max = guard.duration("brake_max_s", Range::between(0.1, 120.0));
+  options.brake_delay = brake_delay(read_thrust_shape(vehicle));
+  options.frame_age_max = max_age::kSonarFrame;
+  options.hull_half_length_m = vehicle.number("hull_length_m", Range::above(0.0, 100.0)) / 2.0;
+  options.hull_half_beam_m = vehicle.number("hull_beam_m", Range::above(0.0, 50.0)) / 2.0;
+  options.hull = read_hull_response(configuration);
+  return options;
+}
+
 }  // namespace
 
 LowLevelOptions read_low_level_options(const TomlTable& configuration) {
@@ -90,6 +161,7 @@ LowLevelOptions read_low_level_options(const TomlTable& configuration) {
   oracle.velocity_sigma_m_s = tracks.number("velocity_sigma_m_s", Range::between(0.0, 1.0));
   oracle.dropout = tracks.number("dropout", Range::between(0.0, 0.99));
   oracle.memory = tracks.duration("memory_s", Range::between(0.0, 3600.0));
+  options.thruster.guard = read_guard_options(configuration);
   return options;
 }
 
@@ -131,29 +203,6 @@ namespace {
   options.response.heading_gain_per_s =
       vehicle.number("heading_gain_per_s", Range::above(0.0, 100.0));
   return options;
-}
-
-[[nodiscard]] VehicleModelParameters read_vehicle_model(const TomlTable& vehicle) {
-  const auto positive = [&vehicle](std::string_view key, double most) {
-    return vehicle.number(key, Range::above(0.0, most));
-  };
-  const auto any = [&vehicle](std::string_view key, double most) {
-    return vehicle.number(key, Range::between(0.0, most));
-  };
-  VehicleModelParameters model;
-  model.mass_kg = positive("mass_kg", 1e6);
-  model.added_mass_surge_kg = any("added_mass_surge_kg", 1e6);
-  model.added_mass_sway_kg = any("added_mass_sway_kg", 1e6);
-  model.yaw_inertia_kg_m2 = positive("yaw_inertia_kg_m2", 1e7);
-  model.added_yaw_inertia_kg_m2 = any("added_yaw_inertia_kg_m2", 1e7);
-  model.surge_drag_n_s_per_m = positive("surge_drag_n_s_per_m", 1e6);
-  model.surge_drag_n_s2_per_m2 = any("surge_drag_n_s2_per_m2", 1e6);
-  model.sway_drag_n_s_per_m = positive("sway_drag_n_s_per_m", 1e6);
-  model.sway_drag_n_s2_per_m2 = any("sway_drag_n_s2_per_m2", 1e6);
-  model.yaw_drag_n_m_s = positive("yaw_drag_n_m_s", 1e7);
-  model.yaw_drag_n_m_s2 = any("yaw_drag_n_m_s2", 1e7);
-  model.turning_n_m_per_head_ref = any("turning_n_m_per_head_ref", 1e4);
-  return model;
 }
 
 [[nodiscard]] FixGateOptions read_fix_gate_options(const TomlTable& estimator) {

@@ -43,6 +43,7 @@ constexpr std::size_t kMaxName = 64;
          (!line.contains("name") || line["name"].is_string()) &&
          (!line.contains("force") || line["force"].is_boolean()) &&
          (!line.contains("release") || line["release"].is_boolean()) &&
+         (!line.contains("override") || line["override"].is_boolean()) &&
          (!line.contains("surge") || is_reference(line["surge"])) &&
          (!line.contains("head") || is_reference(line["head"])) &&
          (!line.contains("set") ||
@@ -72,6 +73,7 @@ CommandLine read_command_line(const std::string& text, const CommandTokens& toke
   request.release = line.value("release", false);
   request.surge_ref = line.value("surge", 0);
   request.head_ref = line.value("head", 0);
+  request.overrides_guard = line.value("override", false);
   if (line.contains("set")) {
     for (const auto& [key, value] : line["set"].items()) {
       request.set[key] = value.get<double>();

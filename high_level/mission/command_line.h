@@ -31,9 +31,10 @@ struct CommandRequest {
   std::optional<std::string> mission;  // the text of a mission file
   std::map<std::string, double> set;   // settings, by their keys in the configuration
   bool force = false;
-  bool release = false;        // of the emergency stop
-  std::int32_t surge_ref = 0;  // [-] [-100, 100] of the stick
-  std::int32_t head_ref = 0;   // [-] [-100, 100]
+  bool release = false;          // of the emergency stop
+  std::int32_t surge_ref = 0;    // [-] [-100, 100] of the stick
+  std::int32_t head_ref = 0;     // [-] [-100, 100]
+  bool overrides_guard = false;  // so does the stick
 };
 
 // The reply to a command, one JSON document on one line, or nothing yet: then it is asked again a

@@ -34,7 +34,8 @@ BoatStatus::BoatStatus(const Blackboard& board, bool arms_by_itself)
       plan_{board.plan},
       helm_{board.helm_command},
       thrust_{board.thrust_status},
-      battery_{board.battery_status} {}
+      battery_{board.battery_status},
+      guard_{board.guard_status} {}
 
 void BoatStatus::add_to(ordered_json& reply, Time now) {
   if (const auto* mission = mission_.latest(); mission != nullptr) {
@@ -44,6 +45,7 @@ void BoatStatus::add_to(ordered_json& reply, Time now) {
     }
   }
   add_thrust(reply, now);
+  add_guard(reply, now);
   add_place(reply, now);
   add_devices(reply, now);
 }
@@ -63,6 +65,24 @@ void BoatStatus::add_thrust(ordered_json& reply, Time now) {
     reply["battery"] = {{"level", to_string(battery->value.level)},
                         {"volts", battery->value.volts},
                         {"rest_volts", battery->value.rest_volts}};
+  }
+}
+
+void BoatStatus::add_guard(ordered_json& reply, Time now) {
+  const auto* guard = guard_.fresh(now, max_age::kGuardStatus);
+  if (guard == nullptr) {
+    return;
+  }
+  const GuardStatus& g = guard->value;
+  reply["guard"] = {{"state", to_string(g.state)},
+                    {"for_s", to_seconds(now - g.since)},
+                    {"speed_m_s", g.speed_m_s},
+                    {"trips", g.trips}};
+  if (g.trips > 0) {
+    reply["guard"]["last_trip"] = {{"reason", to_string(g.reason)},
+                                   {"ago_s", to_seconds(now - g.tripped)},
+                                   {"distance_m", g.distance_m},
+                                   {"speed_m_s", g.trip_speed_m_s}};
   }
 }
 

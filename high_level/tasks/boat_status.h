@@ -18,6 +18,7 @@ class BoatStatus {
 
  private:
   void add_thrust(nlohmann::ordered_json& reply, Time now);
+  void add_guard(nlohmann::ordered_json& reply, Time now);
   void add_place(nlohmann::ordered_json& reply, Time now);
   void add_devices(nlohmann::ordered_json& reply, Time now);
 
@@ -28,6 +29,7 @@ class BoatStatus {
   Reader<HelmCommand> helm_;
   Reader<ThrustStatus> thrust_;
   Reader<BatteryStatus> battery_;
+  Reader<GuardStatus> guard_;
 };
 
 }  // namespace lodesman

@@ -12,6 +12,7 @@
 #include "mid_level/blackboard/wake_edges.h"
 #include "mid_level/messages/arming.h"
 #include "mid_level/messages/command.h"
+#include "mid_level/messages/guard.h"
 #include "mid_level/messages/health.h"
 #include "mid_level/messages/mission.h"
 #include "mid_level/messages/path.h"
@@ -34,6 +35,7 @@ inline constexpr Duration kHelmCommand = milliseconds{300};
 inline constexpr Duration kManualInput = milliseconds{500};
 inline constexpr Duration kThrustStatus = milliseconds{500};
 inline constexpr Duration kThrustApplied = milliseconds{500};
+inline constexpr Duration kGuardStatus = milliseconds{500};
 inline constexpr Duration kBatteryStatus = milliseconds{3000};
 inline constexpr Duration kDeviceHealth = milliseconds{3000};
 inline constexpr Duration kNoLimit{};
@@ -60,6 +62,7 @@ struct Blackboard {
   Channel<ManualInput, 16> manual_input;
   Channel<ThrustStatus, 64> thrust_status;
   Channel<ThrustApplied, 64> thrust_applied;
+  Channel<GuardStatus, 64> guard_status;
   Channel<BatteryStatus, 4> battery_status;
   std::array<Channel<DeviceHealth, 4>, kDeviceCount> device_health;
   std::array<Channel<TaskHealth, 2>, kTaskCount> task_health;
@@ -125,6 +128,8 @@ void for_each_channel(Board& board, Visit visit) {
         board.thrust_status);
   visit(ChannelInfo{"thrust_applied", Role::kLow, "thruster", max_age::kThrustApplied},
         board.thrust_applied);
+  visit(ChannelInfo{"guard_status", Role::kLow, "thruster", max_age::kGuardStatus},
+        board.guard_status);
   visit(ChannelInfo{"battery_status", Role::kLow, "thruster", max_age::kBatteryStatus},
         board.battery_status);
   for (std::size_t i = 0; i < kDeviceCount; ++i) {

@@ -37,10 +37,12 @@ struct ThrustOrder {
 struct ManualInput {
   std::int32_t surge_ref = 0;  // [-] [-100, 100]
   std::int32_t head_ref = 0;   // [-] [-100, 100] positive turns right
+  bool overrides_guard = false;
 
   static constexpr auto fields() noexcept {
     return std::tuple{field("surge_ref", &ManualInput::surge_ref).within(-100, 100),
-                      field("head_ref", &ManualInput::head_ref).within(-100, 100)};
+                      field("head_ref", &ManualInput::head_ref).within(-100, 100),
+                      field("overrides_guard", &ManualInput::overrides_guard)};
   }
 };
 

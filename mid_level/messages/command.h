@@ -295,11 +295,12 @@ enum class ThrustReason : std::uint8_t {
   kStopped,       // the emergency stop: neutral
   kManual,        // the thrusters run as the stick says
   kStickSilent,   // the stick has fallen silent: neutral
+  kGuarded,       // the guard brakes, or keeps neutral, whatever is asked for
 };
 [[nodiscard]] constexpr auto enumerators(ThrustReason) noexcept {
-  return enumerators_to<ThrustReason::kStickSilent>("commanded", "no_command", "stale_command",
-                                                    "device_failed", "no_thrusters", "disarmed",
-                                                    "stopped", "manual", "stick_silent");
+  return enumerators_to<ThrustReason::kGuarded>("commanded", "no_command", "stale_command",
+                                                "device_failed", "no_thrusters", "disarmed",
+                                                "stopped", "manual", "stick_silent", "guarded");
 }
 
 // Written by the thruster task at 20 Hz, after the box took the command; where it took none, all is

@@ -147,6 +147,13 @@ std::string result_json(const RunResult& result) {
   for (const Notice& notice : result.notices) {
     json["notices"].push_back({{"t_s", number(notice.t_s, kPlanDecimals)}, {"text", notice.text}});
   }
+  json["guard_trips"] = Json::array();
+  for (const GuardTrip& trip : result.guard_trips) {
+    json["guard_trips"].push_back({{"t_s", number(trip.t_s, kPlanDecimals)},
+                                   {"reason", trip.reason},
+                                   {"distance_m", number(trip.distance_m, kPlanDecimals)},
+                                   {"speed_m_s", number(trip.speed_m_s, kPlanDecimals)}});
+  }
   json["real_time_factor"] = metric(result.real_time_factor);
   json["recording_hash"] = result.recording_hash ? Json(*result.recording_hash) : Json(nullptr);
   json["version"] = result.version;

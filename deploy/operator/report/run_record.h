@@ -68,6 +68,14 @@ struct Notice {
   std::string text;
 };
 
+// What the guard of the low level stopped the boat for.
+struct GuardTrip {
+  double t_s = 0.0;
+  std::string reason;
+  double distance_m = 0.0;
+  double speed_m_s = 0.0;
+};
+
 struct Percentiles {
   double p50 = 0.0;
   double p99 = 0.0;
@@ -104,7 +112,8 @@ struct RunResult {
   Percentiles ping_to_command_us;
   std::uint64_t overruns = 0;
   std::uint64_t stale_events = 0;
-  std::vector<Notice> notices;  // the first kMaxNotices
+  std::vector<Notice> notices;         // the first kMaxNotices
+  std::vector<GuardTrip> guard_trips;  // the first kMaxNotices
   double real_time_factor = 0.0;
   std::optional<std::string> recording_hash;  // lock-step only
   std::string version;

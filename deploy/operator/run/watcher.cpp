@@ -64,6 +64,7 @@ RunWatcher::RunWatcher(const Blackboard& board, const Blackboard& truth, const S
       state_{board.vehicle_state},
       helm_{board.helm_command},
       thrust_{board.thrust_applied},
+      guard_{board.guard_status},
       plan_{board.plan},
       path_{board.sonar_path},
       side_flips_{scenario.obstacles} {
@@ -75,6 +76,7 @@ RunWatcher::RunWatcher(const Blackboard& board, const Blackboard& truth, const S
 void RunWatcher::poll() {
   take_mission();
   take_commands();
+  take_guard();
   take_plans();
   take_truth();
   take_health();
@@ -122,7 +124,8 @@ void RunWatcher::take_commands() {
   }
   while (const auto* thrust = thrust_.next()) {
     const bool newly_stale = thrust->value.reason == ThrustReason::kStaleCommand &&
-                             applied_.reason != ThrustReason::kStaleCommand;
+                             applied_.reason != ThrustReason::kStaleCommand &&
+                             applied_.reason != ThrustReason::kGuarded;
     record_.result.stale_events += newly_stale ? 1 : 0;
     applied_ = thrust->value;
     if (applied_.reason == ThrustReason::kCommanded && applied_.plan_id > answered_plan_) {
@@ -257,6 +260,19 @@ void RunWatcher::end_at_truth() noexcept {
     }
   }
   record_.result.time_s = to_seconds(status_.ended - status_.first_started);
+}
+
+// Trips of a low level that was started anew count from 1 again.
+void RunWatcher::take_guard() {
+  while (const auto* guard = guard_.next()) {
+    const GuardStatus& now = guard->value;
+    const bool is_new = now.trips != trips_ && now.trips > 0;
+    trips_ = now.trips;
+    if (is_new && record_.result.guard_trips.size() < kMaxNotices) {
+      record_.result.guard_trips.push_back({scenario_time_of(now.tripped), to_string(now.reason),
+                                            now.distance_m, now.trip_speed_m_s});
+    }
+  }
 }
 
 void RunWatcher::take_health() {

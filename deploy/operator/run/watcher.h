@@ -66,6 +66,7 @@ class RunWatcher {
   void take_plans();
   void take_rung(const PlanRecord& plan, Time stamp);
   void count_rung_until(double time_s);
+  void take_guard();
   void take_health();
   void add_truth(const Stamped<WorldTruth>& truth);
   void take_the_least(const WorldTruth& truth);
@@ -84,6 +85,7 @@ class RunWatcher {
   Reader<VehicleState> state_;
   Reader<HelmCommand> helm_;
   Reader<ThrustApplied> thrust_;
+  Reader<GuardStatus> guard_;
   Reader<Plan> plan_;
   Reader<SonarPath> path_;
   std::vector<Reader<TaskHealth>> health_;
@@ -104,6 +106,7 @@ class RunWatcher {
   bool ended_ = false;
   std::uint64_t answered_plan_ = 0;  // newest plan whose first command was timed
   bool was_stale_ = false;
+  std::uint64_t trips_ = 0;  // of the guard, as far as they are noted
   KeptRows rows_;
   KeptPlans plans_;
   SideFlipCounter side_flips_;

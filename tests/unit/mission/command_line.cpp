@@ -14,6 +14,18 @@ TEST_CASE("command line: a command with the token may be obeyed", "[high_level][
   }
 }
 
+TEST_CASE("command line: the guard is overridden by a word of its own alone",
+          "[high_level][mission]") {
+  const auto read = [](const std::string& more) {
+    return read_command_line(R"({"command":"manual","token":"secret","surge":20)" + more + "}",
+                             {"secret", "", ""});
+  };
+  CHECK_FALSE(read("").request.overrides_guard);
+  CHECK_FALSE(read(R"(,"override":false)").request.overrides_guard);
+  CHECK(read(R"(,"override":true)").request.overrides_guard);
+  CHECK_FALSE(read(R"(,"override":1)").refusal.empty());
+}
+
 TEST_CASE("command line: without the token nothing may, not even where the token is empty",
           "[high_level][mission]") {
   for (const std::string token : {"secret", ""}) {

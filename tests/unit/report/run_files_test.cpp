@@ -94,6 +94,7 @@ const std::vector<std::string> kResultKeys{"scenario",
                                            "overruns",
                                            "stale_events",
                                            "notices",
+                                           "guard_trips",
                                            "real_time_factor",
                                            "recording_hash",
                                            "version"};
