@@ -151,7 +151,8 @@ ThrustApplied ThrusterTask::by_stick(Time now) noexcept {
 
 // Below the emergency stop and an abort, above stick and mission.
 ThrustApplied ThrusterTask::guarded(const ThrustApplied& wanted, Time now) noexcept {
-  guard_.advance(now);
+  const auto* attitude = attitude_.fresh(now, max_age::kAttitude);
+  guard_.advance(now, attitude != nullptr ? &attitude->value : nullptr);
   while (const auto* seen = obstacles_.next()) {
     guard_.see(seen->value);
   }

@@ -34,6 +34,7 @@ class ThrusterTask final : public Task {
         orders_{board.thrust_order},
         stick_{board.manual_input},
         obstacles_{board.sonar_obstacles},
+        attitude_{board.attitude},
         before_{board.thrust_status},
         status_{writer_of(board, board.thrust_status, role)},
         applied_{writer_of(board, board.thrust_applied, role)},
@@ -47,7 +48,7 @@ class ThrusterTask final : public Task {
 
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override {
-    return refused_by(helm_, orders_, stick_, obstacles_);
+    return refused_by(helm_, orders_, stick_, obstacles_, attitude_);
   }
   void enter_safe_state(Time now) noexcept override;
 
@@ -69,6 +70,7 @@ class ThrusterTask final : public Task {
   Reader<ThrustOrder> orders_;
   Reader<ManualInput> stick_;
   Reader<SonarObstacles> obstacles_;
+  Reader<Attitude> attitude_;
   Reader<ThrustStatus> before_;
   Writer<ThrustStatus> status_;
   Writer<ThrustApplied> applied_;

@@ -44,9 +44,9 @@ void EdgePoints::take(const SonarObstacles& seen, double reach_m) noexcept {
   for (int i = 0; i <= kReachHalvings_max; ++i) {
     count_ = 0;
     is_full_ = false;
-    const std::size_t count = std::min<std::size_t>(seen.count, kMaxObstacles);
-    for (const Obstacle& obstacle : std::span{seen.obstacles}.first(count)) {
-      add(obstacle);
+    const std::uint32_t count = std::min<std::uint32_t>(seen.count, kMaxObstacles);
+    for (obstacle_ = 0; obstacle_ < count; ++obstacle_) {
+      add(seen.obstacles[obstacle_]);
     }
     if (!is_full_) {
       return;
@@ -128,7 +128,7 @@ void EdgePoints::add_point(const EdgePoint& point) noexcept {
     is_full_ = true;
     return;
   }
-  points_[count_++] = point;
+  points_[count_++] = {point.x_m, point.y_m, obstacle_};
 }
 
 }  // namespace lodesman

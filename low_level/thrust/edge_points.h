@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "mid_level/messages/sonar.h"
@@ -12,8 +13,9 @@
 namespace lodesman {
 
 struct EdgePoint {
-  double x_m = 0.0;  // [m] in the frame of the obstacles
-  double y_m = 0.0;  // [m]
+  double x_m = 0.0;            // [m] in the frame of the obstacles
+  double y_m = 0.0;            // [m]
+  std::uint32_t obstacle = 0;  // [-] index in the list
 };
 
 class EdgePoints {
@@ -37,6 +39,7 @@ class EdgePoints {
 
   std::array<EdgePoint, kMaxPoints> points_{};
   std::size_t count_ = 0;
+  std::uint32_t obstacle_ = 0;  // at hand
   double reach_m_ = 0.0;
   bool is_full_ = false;
 };

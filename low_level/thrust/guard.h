@@ -4,7 +4,8 @@
 // within a margin of something that was seen, it stops at once: full thrust against the way made,
 // then neutral for as long as what is asked for would close in. It also takes the way off a boat
 // that nobody steers. What rests is never touched as far as detections, speed and the thrust astern
-// are what they are taken for; for what moves it does what it can.
+// are what they are taken for. For what is seen to move, under a name of its own, it stops where
+// that is met both by going on and by stopping: who finds a way past is left to it.
 //
 // It never acts on what one ping alone shows, never cuts what opens the distance, and never turns a
 // propeller that nobody has armed, or after an abort. Without a sonar frame that is new enough it
@@ -22,6 +23,7 @@
 #include "mid_level/base/time.h"
 #include "mid_level/messages/guard.h"
 #include "mid_level/messages/sonar.h"
+#include "mid_level/messages/vehicle.h"
 
 namespace lodesman {
 
@@ -52,7 +54,8 @@ class Guard {
 
   // Once a step, in this order: how far the boat has come, each new sonar frame, what is done about
   // what is asked for, and what the box has taken in the end.
-  void advance(Time now) noexcept;
+  // `attitude`: the newest that is fresh, or nullptr.
+  void advance(Time now, const Attitude* attitude) noexcept;
   void see(const SonarObstacles& seen) noexcept;
   // What is to be applied instead; nothing where that is what is asked for.
   [[nodiscard]] std::optional<SurgeAndHead> judge(const SurgeAndHead& asked, const GuardView& view,
@@ -66,10 +69,24 @@ class Guard {
   static constexpr std::size_t kMaxWay = 160;
   static constexpr std::size_t kMaxPast = 128;
 
+  // What is seen under a name of its own, and how it moves; in the frame of the reckoning.
+  struct Thing {
+    std::uint32_t id = 0;
+    double x_m = 0.0;
+    double y_m = 0.0;
+    double x_m_s = 0.0;
+    double y_m_s = 0.0;
+    bool moves = false;
+  };
   struct Frame {
     Time captured{};
     std::size_t count = 0;
     std::array<EdgePoint, EdgePoints::kMaxPoints> points{};  // in the frame of the reckoning
+    std::array<Thing, kMaxObstacles> things{};
+  };
+  struct Spot {
+    double x_m = 0.0;
+    double y_m = 0.0;
   };
   struct Past {
     Time at{};
@@ -81,8 +98,9 @@ class Guard {
     double y_m = 0.0;
     double sine = 0.0;
     double cosine = 1.0;
+    double after_s = 0.0;
   };
-  // What would be sailed: what is asked for a while, then stopped as hard as can be.
+  // What would be sailed.
   struct Way {
     std::array<Place, kMaxWay> places{};
     std::size_t count = 0;
@@ -91,9 +109,17 @@ class Guard {
 
   [[nodiscard]] ReckonedMotion motion_at(Time at) const noexcept;
   [[nodiscard]] double sight_m() const noexcept;
+  [[nodiscard]] Thing watched(Thing thing, Time captured) const noexcept;
+  void begin(Way& way, ReckonedMotion& at) const noexcept;
+  void add(Way& way, const ReckonedMotion& at) const noexcept;
+  void sail(Way& way, ReckonedMotion& at, const SurgeAndHead& thrust, double for_s) const noexcept;
   void foresee(const SurgeAndHead& asked, Duration for_so_long, Way& way) const noexcept;
-  [[nodiscard]] double hull_distance_m(const Place& place, const EdgePoint& point) const noexcept;
-  [[nodiscard]] bool is_within(double reach_m, const EdgePoint& point) const noexcept;
+  void foresee_on(const SurgeAndHead& asked) noexcept;
+  [[nodiscard]] double hull_distance_m(const Place& place, const Spot& spot) const noexcept;
+  [[nodiscard]] bool is_within(double reach_m, const Spot& spot) const noexcept;
+  [[nodiscard]] bool comes_near(const Way& way, const Thing& thing, const Spot& spot,
+                                double too_near_m) const noexcept;
+  [[nodiscard]] bool meets(const Thing& thing, const Spot& spot, double too_near_m) const noexcept;
   // [m] to what is nearest, by one frame; nothing where it shows nothing that is in the way.
   [[nodiscard]] std::optional<double> in_the_way_m(const Frame& frame) const noexcept;
   // The same by two of the last three; of those that are new enough where `fresh_only`.
@@ -114,6 +140,7 @@ class Guard {
   GuardStatus status_;
   ReckonedMotion motion_{};
   Time moved_to_{};
+  std::optional<double> measured_rad_;  // the last heading
   SurgeAndHead thrust_{};
   Time thrust_acts_{};   // not before: the box reverses
   Time silent_since_{};  // 0: it is not
@@ -124,6 +151,7 @@ class Guard {
   EdgePoints edges_;
   Way soon_;   // of what is asked for until the next command acts
   Way later_;  // and if it goes on
+  Way on_;     // and if nothing stops it, for as long as that takes
 };
 
 }  // namespace lodesman

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The guard, in two tables of docs/robustness.md. First with the pilot replaced by full ahead, at shapes in
+# The guard, in two tables. First with the pilot replaced by full ahead, at shapes in
 # open water and at all that rests in the shipped scenarios and in the hard cases (where the data is):
 # nothing may be touched. Then with the real pilot, in the shipped scenarios and in random encounters:
 # no trip but where the same run without the guard comes nearer than the guard's own margin, 0.2 m.

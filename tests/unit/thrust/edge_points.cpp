@@ -87,6 +87,9 @@ TEST_CASE("edge points: walls, posts and corners", "[low_level][thrust]") {
     CHECK(scene.nearest_m(x_m, 3.0) <= EdgePoints::kSpacing_m / 2.0 + 1e-9);
   }
   CHECK(scene.nearest_m(2.0, 1.0) < 1e-9);
+  for (const EdgePoint& p : scene.edges->points()) {
+    CHECK(p.obstacle == (p.y_m < 2.0 ? 1U : 0U));
+  }
 }
 
 TEST_CASE("edge points: of more than there is room for the nearest are kept",

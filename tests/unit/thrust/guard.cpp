@@ -37,7 +37,10 @@ class Sail {
   SurgeAndHead step(const SurgeAndHead& asked, const GuardView& view = {true, false, false}) {
     now += kStep;
     motion = model_.advanced(motion, thrust, to_seconds(kStep));
-    guard->advance(now);
+    for (Obstacle& each : stones) {
+      each.centre_y_m += stones_y_m_s * to_seconds(kStep);
+    }
+    guard->advance(now, nullptr);
     if (++steps_ % 2 == 0 && pings) {
       ping(stones);
     }
@@ -63,8 +66,9 @@ class Sail {
     for (const Obstacle& each : shown) {
       const double dx_m = each.centre_x_m - motion.x_m;
       const double dy_m = each.centre_y_m - motion.y_m;
-      seen->obstacles[seen->count++] =
+      seen->obstacles[seen->count] =
           stone(dx_m * cosine - dy_m * sine, dx_m * sine + dy_m * cosine, each.semi_axis_first_m);
+      seen->obstacles[seen->count++].id = each.id;
     }
     guard->see(*seen);
   }
@@ -81,6 +85,7 @@ class Sail {
   std::unique_ptr<Guard> guard;
   std::unique_ptr<SonarObstacles> seen = std::make_unique<SonarObstacles>();
   std::vector<Obstacle> stones;
+  double stones_y_m_s = 0.0;
   ReckonedMotion motion;
   SurgeAndHead thrust;
   Time now = kCastOff;
@@ -311,6 +316,31 @@ TEST_CASE("guard: by configuration it is off", "[low_level][thrust]") {
   sail.sail({0, 0}, 1.0, kSilent);
   CHECK(sail.guard->status().state == GuardState::kOff);
   CHECK(sail.guard->status().trips == 0);
+}
+
+TEST_CASE("guard: what moves out of the way stops nothing, what is met does",
+          "[low_level][thrust]") {
+  for (const double away_m_s : {0.9, -0.5}) {
+    Sail sail;
+    sail.sail({57, 0}, 10.0);
+    sail.stones = {
+        stone(0.0, sail.motion.y_m + 2.4)};  // nearer than it takes to stop, were it at rest
+    sail.stones[0].id = 7;
+    sail.stones_y_m_s = away_m_s;
+    sail.sail({57, 0}, 3.0);
+    CHECK((sail.guard->status().trips > 0) == (away_m_s < 0.0));
+  }
+}
+
+TEST_CASE("guard: who flees from what moves is left to it", "[low_level][thrust]") {
+  Sail sail;
+  sail.stones = {stone(0.0, 6.0)};
+  sail.stones[0].id = 7;
+  sail.stones_y_m_s = -0.7;
+  sail.sail({30, 0}, 3.0);
+  for (int i = 0; i < 100; ++i) {
+    CHECK(sail.step({-80, 0}).surge_ref <= -80);
+  }
 }
 
 TEST_CASE("guard: full astern already is no trip", "[low_level][thrust]") {
