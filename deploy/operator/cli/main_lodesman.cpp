@@ -10,6 +10,7 @@
 #include "deploy/operator/cli/doctor_command.h"
 #include "deploy/operator/cli/operator_commands.h"
 #include "deploy/operator/cli/plan_command.h"
+#include "deploy/operator/cli/run_command.h"
 #include "deploy/operator/cli/segment_command.h"
 #include "deploy/operator/cli/sim_command.h"
 #include "deploy/operator/cli/thrust_commands.h"
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
   int exit_status = 0;
   cli::add_sim_command(app, exit_status);
   cli::add_hil_command(app, exit_status);
+  cli::add_run_command(app, exit_status);
   cli::add_operator_commands(app, exit_status);
   cli::add_thrust_commands(app, exit_status);
   cli::add_calibrate_command(app, exit_status);
