@@ -40,7 +40,7 @@ std::vector<Failsafe> failsafes() {
        "no start is taken; the estimate goes on with no thrust",
        "`not_ready`, log of lodesman-high"},
       {"commands, as the thruster box sees it", MaestroOptions{}.time_out,
-       "the box stops both thrusters by itself (its own setting, proved at every start)",
+       "the box stops both thrusters by itself (its own setting, which is proved)",
        "device `thrusters`, once it speaks again"},
       {"thruster box, gone", kArmedMemory, "the thrusters are disarmed",
        "thrust `disarmed` by `box_lost`, device `thrusters`"},

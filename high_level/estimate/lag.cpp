@@ -5,6 +5,12 @@
 
 namespace lodesman {
 
+void Lag::resume(Time then, double value) noexcept {
+  value_ = value;
+  last_ = then;
+  running_ = true;
+}
+
 double Lag::follow(Time now, double wanted) noexcept {
   if (time_ <= Duration::zero()) {
     return wanted;

@@ -14,6 +14,8 @@ class Lag {
 
   // The value now, where `wanted` was asked for since the last call. The first call begins at 0.
   double follow(Time now, double wanted) noexcept;
+  // Begins at that value instead, which it had then.
+  void resume(Time then, double value) noexcept;
 
  private:
   Duration time_;

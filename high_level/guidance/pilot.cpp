@@ -53,6 +53,16 @@ void Pilot::start() noexcept {
   best_.reset();
 }
 
+void Pilot::keep_sides_of(const PathRequest& last) noexcept {
+  for (std::uint32_t i = 0; i < last.zone_count; ++i) {
+    const PathZone& zone = last.zones[i];
+    if (zone.shape.id != 0 && zone.may_keep_to_port != zone.may_keep_to_starboard) {
+      sides_[side_count_++] = {zone.shape.id,
+                               zone.may_keep_to_port ? Side::kPort : Side::kStarboard};
+    }
+  }
+}
+
 void Pilot::sail_at(double speed_m_s) noexcept {
   options_.response.speed_max_m_s = speed_m_s;
   options_.response.look_ahead_m = look_ahead_at_rest_m_ + options_.look_ahead_s * speed_m_s;

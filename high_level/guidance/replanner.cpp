@@ -36,6 +36,12 @@ void Replanner::start(Time now) noexcept {
   plan_ = Plan{};
 }
 
+void Replanner::keep_sides_of(const PathRequest& last) noexcept {
+  if (pilot_) {
+    pilot_->keep_sides_of(last);
+  }
+}
+
 bool Replanner::is_due(Time now, std::uint64_t frame) const noexcept {
   const bool due = !asked_ || now - *asked_ + kEarly_max >= options_.replan_period;
   return due && !pending_ && frame != planned_frame_;

@@ -42,6 +42,7 @@ class Replanner {
   // Forgets plans and goal: a mission starts.
   void start(Time now) noexcept;
   // For the pilot, where there is one.
+  void keep_sides_of(const PathRequest& last) noexcept;
   void sail_at(double speed_m_s) noexcept;
   void tune(const Tunables& tunables) noexcept;
 

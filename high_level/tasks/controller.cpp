@@ -34,6 +34,7 @@ ControllerTask::ControllerTask(Blackboard& board, Role role, const ControllerOpt
       commands_{writer_of(board, board.helm_command, role)} {}
 
 void ControllerTask::step(Time now) noexcept {
+  begun_ = begun_.value_or(now);
   take_tunables();
   commands_.publish(decide(now), now);
 }
@@ -64,8 +65,9 @@ HelmCommand ControllerTask::decide(Time now) noexcept {
     helm.reason = HelmReason::kNotUnderWay;
     return helm;
   }
-  // A plan from before this start is not this mission's.
-  const bool planned = plan != nullptr && plan->stamp >= mission->value.started;
+  // A plan from before this start is not this mission's, and one from before this program, which
+  // may be seconds old, is not to be steered by: the planner's next one is on its way.
+  const bool planned = plan != nullptr && plan->stamp >= std::max(mission->value.started, *begun_);
   if (planned) {
     helm.plan_id = plan->value.id;
     helm.plan_captured = plan->value.captured;

@@ -4,6 +4,8 @@
 // missing. Stepped by its runner's thread.
 #pragma once
 
+#include <optional>
+
 #include "high_level/guidance/waypoints.h"
 #include "mid_level/runtime/task.h"
 
@@ -44,8 +46,9 @@ class ControllerTask final : public Task {
                 HelmCommand& helm) const noexcept;
 
   ControllerOptions options_;
-  int surge_ref_ = 0;       // [-] eq. 7, of the mission ...
-  double speed_m_s_ = 0.0;  // [m/s] ... and what it holds
+  std::optional<Time> begun_;  // its first step
+  int surge_ref_ = 0;          // [-] eq. 7, of the mission ...
+  double speed_m_s_ = 0.0;     // [m/s] ... and what it holds
   WaypointTracker tracker_;
   Reader<Attitude> attitude_;
   Reader<VehicleState> vehicle_state_;

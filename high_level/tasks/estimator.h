@@ -3,14 +3,20 @@
 // heading and the thrust that was applied. Source `gps` is the pose filter; `dead_reckoning` is eqs
 // 15-25 of the paper, and `truth` the simulated world's word. It publishes nothing while its inputs
 // are stale, and begins anew where what comes out is no estimate.
+//
+// A time that it did not step through, frozen or dead, it makes up for by what was applied and
+// measured meanwhile; one that died leaves estimator_memory, and the next one goes on from there.
+// The filter coasts on while the heading is stale. What is longer than kLongestGap is not bridged.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "high_level/estimate/dead_reckoning.h"
 #include "high_level/estimate/drift.h"
 #include "high_level/estimate/lag.h"
 #include "high_level/estimate/pose_filter.h"
+#include "high_level/tasks/past_inputs.h"
 #include "mid_level/base/geodesy.h"
 #include "mid_level/runtime/task.h"
 
@@ -29,6 +35,8 @@ struct EstimatorOptions {
 
 class EstimatorTask final : public Task {
  public:
+  static constexpr Duration kLongestGap = std::chrono::seconds{10};
+
   EstimatorTask(Blackboard& board, Role role, const EstimatorOptions& options);
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override {
@@ -38,10 +46,17 @@ class EstimatorTask final : public Task {
  private:
   // What is reckoned with, at its beginning.
   void begin_anew() noexcept;
+  // Goes on where one that was here before has left off, if that is not too long ago.
+  void take_up(Time now) noexcept;
+  // Through the time since the last step, where that is more than a period or two.
+  void catch_up(Time now) noexcept;
   // Source `gps`.
   void step_filter(Time now, const Attitude& attitude, const ThrustApplied& applied) noexcept;
+  void coast(Time now, const Stamped<ThrustApplied>* thrust) noexcept;
+  void take_fixes(Time now, Heading heading) noexcept;
   // The others.
   void step_reckoning(Time now, const Attitude& attitude, int surge_ref) noexcept;
+  void remember(const VehicleState& state, Time now) noexcept;
   // False when the source is silent.
   [[nodiscard]] bool update_position(Time now, Heading heading, int surge_ref) noexcept;
   void publish(const VehicleState& state, Time now) noexcept;
@@ -57,6 +72,11 @@ class EstimatorTask final : public Task {
   Reader<WorldTruth> world_truth_;
   Reader<ThrustApplied> thrust_applied_;
   Writer<VehicleState> states_;
+  Writer<EstimatorMemory> memories_;
+  PastInputs past_;
+  // What one that was here before remembered; empty once it was taken up, or too old.
+  std::optional<EstimatorMemory> legacy_;
+  Time reckoned_to_{};  // by the other sources; 0: not yet
 };
 
 }  // namespace lodesman

@@ -76,9 +76,14 @@ OperatorDesk::OperatorDesk(Blackboard& board, Role role, DeskOptions options, No
   if (const auto* last = before.latest(); last != nullptr) {
     aborts_ = last->value.aborts;
   }
+  // A commander's link is left as it was: it is lost, unless somebody takes command again.
+  if (const auto left = tunables_left(board)) {
+    options_.tunables = *left;
+  } else {
+    links_.publish({}, now_());
+  }
   options_.tunables.version = tunables_.sequence() + 1;
   tunables_.publish(options_.tunables, now_());
-  links_.publish({}, now_());
   if (options_.at_hand) {
     require_possible(*options_.at_hand);
     if (at_hand() == nullptr) {

@@ -43,6 +43,7 @@ void ThrusterTask::step(Time now) noexcept {
   status_.publish(arming_.status(), now);
   applied_.publish(applied, now);
   device_.publish(now);
+  keep_proof(now);
   watch_battery({applied.left, applied.right}, now);
 }
 
@@ -58,6 +59,28 @@ void ThrusterTask::begin(Time now) noexcept {
   }
   if (stop_is_latched_) {
     arming_.latch(now);
+  }
+  recall_proof();
+}
+
+// Until the driver says that it goes by it, none stands: who dies before that leaves none.
+void ThrusterTask::recall_proof() noexcept {
+  const auto* proof = proof_before_.latest();
+  const auto* applied = applied_before_.latest();
+  if (proof == nullptr) {
+    return;
+  }
+  told_proof_ = proof->value;
+  if (thrusters_ != nullptr && applied != nullptr && remembers_) {
+    thrusters_->recall(proof->value, applied->stamp);
+  }
+}
+
+void ThrusterTask::keep_proof(Time now) noexcept {
+  const BoxProof proof = thrusters_ != nullptr ? thrusters_->proof() : BoxProof{};
+  if (proof.proved != told_proof_.proved || proof.power_up != told_proof_.power_up) {
+    told_proof_ = proof;
+    proof_.publish(proof, now);
   }
 }
 

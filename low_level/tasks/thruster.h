@@ -33,6 +33,9 @@ class ThrusterTask final : public Task {
         before_{board.thrust_status},
         status_{writer_of(board, board.thrust_status, role)},
         applied_{writer_of(board, board.thrust_applied, role)},
+        proof_before_{board.box_proof},
+        applied_before_{board.thrust_applied},
+        proof_{writer_of(board, board.box_proof, role)},
         battery_out_{writer_of(board, board.battery_status, role)},
         device_{board, role, DeviceId::kThrusters, max_age::kThrustApplied},
         battery_{options.battery},
@@ -47,6 +50,8 @@ class ThrusterTask final : public Task {
 
  private:
   void begin(Time now) noexcept;
+  void recall_proof() noexcept;
+  void keep_proof(Time now) noexcept;
   void look(Time now) noexcept;
   void obey_orders(Time now) noexcept;
   [[nodiscard]] ThrustApplied wanted(Time now) noexcept;
@@ -63,6 +68,9 @@ class ThrusterTask final : public Task {
   Reader<ThrustStatus> before_;
   Writer<ThrustStatus> status_;
   Writer<ThrustApplied> applied_;
+  Reader<BoxProof> proof_before_;
+  Reader<ThrustApplied> applied_before_;
+  Writer<BoxProof> proof_;
   Writer<BatteryStatus> battery_out_;
   DeviceReport device_;
   Arming arming_;
@@ -73,6 +81,7 @@ class ThrusterTask final : public Task {
   CommandStatus box_ = CommandStatus::kNotReady;  // to the last command
   std::uint64_t obeyed_ = 0;                      // sequence of the last order that was taken
   Time helm_asks_{};                              // for thrust, since then; 0: it does not
+  BoxProof told_proof_;
   BatteryLevel told_level_ = BatteryLevel::kUnknown;
   Time battery_told_{};
 };

@@ -44,6 +44,7 @@ struct Blackboard {
   Channel<Attitude, 64> attitude;
   Channel<PositionFix, 16> position_fix;
   Channel<VehicleState, 64> vehicle_state;
+  Channel<EstimatorMemory, 4> estimator_memory;
   Channel<SonarPing, 4> sonar_ping;
   Channel<SonarObstacles, 16> sonar_obstacles;
   Channel<Tracks, 8> tracks;
@@ -60,6 +61,7 @@ struct Blackboard {
   Channel<ManualInput, 16> manual_input;
   Channel<ThrustStatus, 64> thrust_status;
   Channel<ThrustApplied, 64> thrust_applied;
+  Channel<BoxProof, 4> box_proof;
   Channel<BatteryStatus, 4> battery_status;
   std::array<Channel<DeviceHealth, 4>, kDeviceCount> device_health;
   std::array<Channel<TaskHealth, 2>, kTaskCount> task_health;
@@ -99,6 +101,8 @@ void for_each_channel(Board& board, Visit visit) {
         board.position_fix);
   visit(ChannelInfo{"vehicle_state", Role::kHigh, "estimator", max_age::kVehicleState},
         board.vehicle_state);
+  visit(ChannelInfo{"estimator_memory", Role::kHigh, "estimator", max_age::kNoLimit},
+        board.estimator_memory);
   visit(ChannelInfo{"sonar_ping", Role::kLow, "delta_t", max_age::kSonarFrame}, board.sonar_ping);
   visit(ChannelInfo{"sonar_obstacles", Role::kLow, "delta_t", max_age::kSonarFrame},
         board.sonar_obstacles);
@@ -125,6 +129,7 @@ void for_each_channel(Board& board, Visit visit) {
         board.thrust_status);
   visit(ChannelInfo{"thrust_applied", Role::kLow, "thruster", max_age::kThrustApplied},
         board.thrust_applied);
+  visit(ChannelInfo{"box_proof", Role::kLow, "thruster", max_age::kNoLimit}, board.box_proof);
   visit(ChannelInfo{"battery_status", Role::kLow, "thruster", max_age::kBatteryStatus},
         board.battery_status);
   for (std::size_t i = 0; i < kDeviceCount; ++i) {

@@ -131,6 +131,17 @@ struct ThrustStatus {
   }
 };
 
+// That the thruster box was seen to stop by itself. Written by the thruster task when it changes;
+// read by a thruster task that comes after, and by displays.
+struct BoxProof {
+  Time proved{};               // [ns] when; 0: no proof stands
+  std::uint64_t power_up = 0;  // [-] of the box, as the system knows it; 0: it does not
+
+  static constexpr auto fields() noexcept {
+    return std::tuple{field("proved", &BoxProof::proved), field("power_up", &BoxProof::power_up)};
+  }
+};
+
 enum class BatteryLevel : std::uint8_t {
   kUnknown,  // nothing tells, or nothing has told for too long
   kGood,

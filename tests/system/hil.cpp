@@ -129,3 +129,35 @@ TEST_CASE("hil: four real drivers at once, and what each says when its device fa
   CHECK(reaches(9.0, 11.0));   // as its user has it
   CHECK(reaches(29.0, 31.0));  // as the driver asked again
 }
+
+TEST_CASE(
+    "hil: a low level that died goes by the proof on record, and proves a box that was away anew",
+    "[system]") {
+  OperatedBoat operated{"maestro"};
+  BenchedBoat& boat = operated.boat;
+  REQUIRE(operated.is_obeyed({"arm"}));
+  REQUIRE(operated.is_obeyed({"start"}));
+  boat.await_drive();
+  Reader<BoxProof> proofs{(*operated.board)->box_proof};
+  const Stamped<BoxProof> first = await_first(proofs);
+  REQUIRE(first.value.power_up != 0);
+  const auto kill_low = [&] {
+    REQUIRE(kill(boat.low->pid(), SIGKILL) == 0);
+    REQUIRE(eventually([&] { return boat.low->ended().has_value(); }));
+    CHECK(boat.still_after_s(Time{}) >= 0.0);
+  };
+  kill_low();
+  boat.start_low();
+  boat.await_drive();
+  const BoxProof recalled = await_first(proofs).value;
+  CHECK(recalled.proved == first.value.proved);  // it stands: nothing was proved since
+  CHECK(recalled.power_up == first.value.power_up);
+  kill_low();
+  boat.order("thruster disconnect for=0.2");
+  std::this_thread::sleep_for(milliseconds{400});
+  boat.start_low();
+  boat.await_drive();
+  const BoxProof anew = await_first(proofs).value;
+  CHECK(anew.proved > first.value.proved);
+  CHECK(anew.power_up != first.value.power_up);
+}

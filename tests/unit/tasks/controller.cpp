@@ -64,6 +64,18 @@ struct Controller {
   Reader<HelmCommand> helm{board->helm_command};
 };
 
+TEST_CASE("controller: a plan from before its program is not steered by", "[high_level][tasks]") {
+  Controller controller;
+  controller.all_is_well(kStart);
+  const Time later = kStart + milliseconds{50};
+  controller.mission_is(MissionState::kUnderWay, later);
+  controller.estimate(later);
+  controller.attitude.publish({later, 0.0, 0.0}, later);
+  controller.check_neutral(later, HelmReason::kNoWaypoints);
+  controller.plan_to(10.0, later);
+  CHECK(controller.after_step(later).reason == HelmReason::kTracking);
+}
+
 TEST_CASE("controller task: under way it steers for the waypoint ahead", "[high_level][tasks]") {
   Controller controller;
   controller.all_is_well(kStart);
