@@ -14,7 +14,7 @@
 
 namespace lodesman::testing {
 
-inline constexpr std::size_t kChannels = 21 + kDeviceCount + kTaskCount;
+inline constexpr std::size_t kChannels = 23 + kDeviceCount + kTaskCount;
 
 template <class T>
 void put_words(ChannelSlot<T>& slot, const T& value) noexcept {
