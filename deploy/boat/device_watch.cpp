@@ -7,6 +7,8 @@
 #include <cmath>
 #include <ctime>
 
+#include "deploy/boat/log.h"
+
 namespace lodesman {
 namespace {
 
@@ -55,14 +57,17 @@ void DeviceWatch::look_at(DeviceId id, Time now) {
     return;
   }
   const bool was_ill = !is_well(told.status) || told.fault != DeviceFault::kNone;
-  const std::string what = std::string{to_string(id)} + " (" + addresses_[i] + ")";
-  if (is_well(health.status) && health.fault == DeviceFault::kNone) {
-    if (was_ill) {
-      spdlog::info("{}: {}", what, to_string(health.status));
-    }
-  } else {
+  const bool is_ill = !is_well(health.status) || health.fault != DeviceFault::kNone;
+  if (is_ill || was_ill) {
     const char* why = describe(health.fault);
-    spdlog::warn("{}: {}{}{}", what, to_string(health.status), why[0] != '\0' ? ": " : "", why);
+    const std::array fields{JournalField{"LODESMAN_DEVICE", to_string(id)},
+                            JournalField{"LODESMAN_ADDRESS", addresses_[i]},
+                            JournalField{"LODESMAN_STATUS", to_string(health.status)},
+                            JournalField{"LODESMAN_FAULT", to_string(health.fault)}};
+    log_with_fields(is_ill ? LineLevel::kWarning : LineLevel::kInfo,
+                    fmt::format("{} ({}): {}{}{}", to_string(id), addresses_[i],
+                                to_string(health.status), why[0] != '\0' ? ": " : "", why),
+                    fields);
   }
   told = {health.status, health.fault};
 }

@@ -11,6 +11,8 @@
 #include "deploy/boat/exit_status.h"
 #include "deploy/boat/log.h"
 #include "deploy/boat/process_main.h"
+#include "deploy/boat/service_manager.h"
+#include "deploy/boat/status_line.h"
 #include "deploy/boat/voyage.h"
 #include "high_level/mission/command_socket.h"
 #include "high_level/mission/token_file.h"
@@ -105,11 +107,13 @@ class SegmentSearch {
 };
 
 // Empty when told to stop before there was a segment.
-[[nodiscard]] std::optional<SharedBlackboard> attach(const std::string& segment, Attachment which) {
+[[nodiscard]] std::optional<SharedBlackboard> attach(const std::string& segment, Attachment which,
+                                                     ServiceManager& manager) {
   SegmentSearch search{segment, which};
   auto board = search.look();
   if (!board) {
     wait_for_stop([&] {
+      manager.wait(SteadyClock{}.now(), "waiting for lodesman-low");
       board = search.look();
       return board.has_value();
     });
@@ -152,7 +156,7 @@ struct HighOptions : ProcessOptions {
 
 // Runs the high level on one segment until a stop is asked for or a new low level has made another.
 void sail(SharedBlackboard& board, const BoatConfig& config, const Voyage& voyage,
-          bool start_by_itself, bool arms) {
+          bool start_by_itself, bool arms, ServiceManager& manager) {
   HighLevel high{board.writable(), Role::kHigh, high_level_options(config, voyage)};
   DeskOptions at_the_desk = desk_options(config, voyage);
   at_the_desk.starts_by_itself = start_by_itself;
@@ -163,6 +167,8 @@ void sail(SharedBlackboard& board, const BoatConfig& config, const Voyage& voyag
   std::optional<RunningTasks> running;
   running.emplace(tasks, board);
   LowLevelWatch low{board};
+  HighStatusLine line{*board};
+  const auto status = [&] { return line.text(board.alive(Role::kLow)); };
   wait_for_stop([&] {
     low.look();
     if (const bool silent = launcher_is_silent(); silent && running) {
@@ -173,6 +179,9 @@ void sail(SharedBlackboard& board, const BoatConfig& config, const Voyage& voyag
     }
     if (running) {
       say_what_hangs(running->health);
+      manager.look(running->health, SteadyClock{}.now(), status);
+    } else {
+      manager.wait(SteadyClock{}.now(), "neutral: the launcher has fallen silent");
     }
     return board.is_superseded();
   });
@@ -196,13 +205,15 @@ int run(const HighOptions& options) {
   const Voyage voyage = voyage_of(config, scenario);
   // lodesman-low, which has the same rights, warns if they are missing.
   (void)set_up_realtime();
-  auto board = attach(config.segment, Attachment::kFirst);
+  ServiceManager manager;
+  auto board = attach(config.segment, Attachment::kFirst, manager);
   if (board) {
     report_what_was_found(*board);
   }
   while (board) {
-    sail(*board, config, voyage, start_by_itself, options.arm);
+    sail(*board, config, voyage, start_by_itself, options.arm, manager);
     if (stop_asked()) {
+      manager.stopping();
       break;
     }
     const auto mission = last_mission(*board);
@@ -210,7 +221,7 @@ int run(const HighOptions& options) {
     spdlog::warn("a new lodesman-low has made segment {} anew: beginning anew on it",
                  config.segment);
     board.reset();
-    board = attach(config.segment, Attachment::kAgain);
+    board = attach(config.segment, Attachment::kAgain, manager);
     if (board) {
       hand_on(mission, *board);
     }

@@ -59,6 +59,7 @@ struct Library {
       {"libusb.h", {"deploy/operator/doctor/"}},
       {"boost/asio", {"high_level/mission/", "deploy/operator/", "drivers/", "hal_sim/"}},
       {"spdlog/", {"deploy/boat/"}},
+      {"systemd/", {"deploy/boat/"}},
       {"CLI/", {"deploy/"}},
   };
   return table;

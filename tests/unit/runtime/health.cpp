@@ -118,6 +118,16 @@ TEST_CASE("health watch: another run's words and those yet to come tell nothing"
   CHECK(run.watch.silent(kStart + kAhrsLimit + milliseconds{1}).size() == 1);
 }
 
+TEST_CASE("health watch: all step once each has told of itself in this run",
+          "[mid_level][runtime]") {
+  Watched run;
+  run.ahrs.publish({}, kStart - seconds{1});
+  run.position.publish({}, kStart + milliseconds{1});
+  CHECK_FALSE(run.watch.all_step(kStart + milliseconds{2}));
+  run.ahrs.publish({}, kStart + milliseconds{3});
+  CHECK(run.watch.all_step(kStart + milliseconds{4}));
+}
+
 TEST_CASE("health watch: an observer calls silent only who has spoken", "[mid_level][runtime]") {
   Watched run;
   HealthWatch observer{*run.board};
