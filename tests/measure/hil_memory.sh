@@ -69,7 +69,7 @@ awk '{ if (!($2 in n)) { order[++names] = $2 }
          growth = (memory[name, last] - memory[name, half]) / hours
          printf "%s: %.0f KiB an hour over the second half, %d descriptors more\n", name, growth,
                 held[name, last] - held[name, half]
-         bad = bad || (name != "lodesman" && (growth > 1024 || held[name, last] > held[name, half]))
+         bad = bad || (name != "lodesman-bench" && (growth > 1024 || held[name, last] > held[name, half]))
        }
        exit bad
      }' "$place/table" || failed=1

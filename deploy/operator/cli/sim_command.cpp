@@ -287,7 +287,7 @@ void add_options(CLI::App& command, SimOptions& options) {
 
 void add_sim_command(CLI::App& root, int& exit_status) {
   const auto options = std::make_shared<SimOptions>();
-  CLI::App* command = root.add_subcommand("sim", "Sail a scenario on simulated devices");
+  CLI::App* command = root.add_subcommand("sim", kSimDescription);
   add_options(*command, *options);
   command->add_flag("--lockstep", options->lockstep,
                     "One thread on a virtual clock: deterministic, as fast as the machine allows");
@@ -301,8 +301,7 @@ void add_sim_command(CLI::App& root, int& exit_status) {
 void add_hil_command(CLI::App& root, int& exit_status) {
   const auto options = std::make_shared<SimOptions>();
   const auto bench = std::make_shared<BenchOptions>();
-  CLI::App* command = root.add_subcommand(
-      "hil", "Sail a scenario with the real drivers, on devices that are emulated to the byte");
+  CLI::App* command = root.add_subcommand("hil", kHilDescription);
   add_options(*command, *options);
   add_bench_options(*command, *bench);
   command->footer(

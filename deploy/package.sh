@@ -1,0 +1,58 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# The Debian packages, in build/release/package, of the programs in build/release, which are built
+# where they are not up to date. The same source gives the same bytes, wherever it lies and whenever it
+# is packed: every date is the commit's.
+#   deploy/package.sh [--release N]   the Debian revision, 1 without it
+#   deploy/package.sh --reproduce     builds and packs a copy elsewhere, and compares
+set -eu
+cd "$(dirname "$0")/.."
+. deploy/packages.sh
+release=1
+reproduce=false
+while [ $# -gt 0 ]; do
+  case $1 in
+    --release) release=$2; shift ;;
+    --reproduce) reproduce=true ;;
+    *) say "$1: no such option"; exit 2 ;;
+  esac
+  shift
+done
+SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
+export SOURCE_DATE_EPOCH LC_ALL=C TZ=UTC
+umask 022
+packages=build/release/package
+
+changelog() {
+  printf 'lodesman (%s) unstable; urgency=medium\n\n  * What is new is told by the commits.\n\n' "$1"
+  printf ' -- Lodesman maintainers <maintainers@lodesman.invalid>  %s\n' \
+    "$(date -R -d "@$SOURCE_DATE_EPOCH")"
+}
+
+pack() {
+  rm -rf $packages/man-* $packages/*.deb $packages/*.ddeb $packages/_CPack_Packages
+  deploy/package/man_pages.sh build/release/bin $packages/man-runtime $packages/man-bench
+  changelog "$(build/release/bin/lodesman --version)-$release" | gzip -9n >$packages/changelog.Debian.gz
+  (cd build/release && quietly cpack -G DEB -D CPACK_DEBIAN_PACKAGE_RELEASE="$release")
+  rm -rf $packages/_CPack_Packages
+}
+
+# In another place, with nothing of this build but its source; the cache of a compiler is no proof.
+pack_elsewhere() {
+  elsewhere=$(mktemp -d)
+  trap 'rm -rf "$elsewhere"' EXIT
+  git clone --quiet . "$elsewhere/again"
+  (cd "$elsewhere/again" && CCACHE_DISABLE=1 deploy/package.sh --release "$release")
+  (cd "$elsewhere/again/$packages" && sha256sum -- *.deb *.ddeb) >"$elsewhere/sums"
+  (cd $packages && sha256sum --check "$elsewhere/sums")
+}
+
+install_packages $build_packages $package_packages
+quietly cmake --preset release
+quietly cmake --build --preset release --target lodesman lodesman-low lodesman-high lodesman-bench \
+  lodesman-devices
+pack
+if $reproduce; then
+  pack_elsewhere
+fi
+say "packages: $(cd $packages && echo *.deb *.ddeb)"
