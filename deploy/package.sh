@@ -4,7 +4,7 @@
 # where they are not up to date. The same source gives the same bytes, wherever it lies and whenever it
 # is packed: every date is the commit's.
 #   deploy/package.sh [--release N]   the Debian revision, 1 without it
-#   deploy/package.sh --reproduce     builds and packs a copy elsewhere, and compares
+#   deploy/package.sh --reproduce     instead: builds and packs two copies elsewhere, and compares them
 set -eu
 cd "$(dirname "$0")/.."
 . deploy/packages.sh
@@ -37,22 +37,26 @@ pack() {
   rm -rf $packages/_CPack_Packages
 }
 
-# In another place, with nothing of this build but its source; the cache of a compiler is no proof.
-pack_elsewhere() {
-  elsewhere=$(mktemp -d)
-  trap 'rm -rf "$elsewhere"' EXIT
-  git clone --quiet . "$elsewhere/again"
-  (cd "$elsewhere/again" && CCACHE_DISABLE=1 deploy/package.sh --release "$release")
-  (cd "$elsewhere/again/$packages" && sha256sum -- *.deb *.ddeb) >"$elsewhere/sums"
-  (cd $packages && sha256sum --check "$elsewhere/sums")
+# Two copies of the newest commit, in places of different names and depths. A compiler's cache is no
+# proof, and may write paths of its own.
+compare_copies() {
+  place=$(mktemp -d)
+  trap 'rm -rf "$place"' EXIT
+  for copy in one deeper/another; do
+    git clone --quiet . "$place/$copy"
+    (cd "$place/$copy" && CCACHE_DISABLE=1 deploy/package.sh --release "$release")
+  done
+  (cd "$place/one/$packages" && sha256sum -- *.deb *.ddeb) >"$place/sums"
+  (cd "$place/deeper/another/$packages" && sha256sum --check "$place/sums")
 }
 
 install_packages $build_packages $package_packages
+if $reproduce; then
+  compare_copies
+  exit
+fi
 quietly cmake --preset release
 quietly cmake --build --preset release --target lodesman lodesman-low lodesman-high lodesman-bench \
   lodesman-devices
 pack
-if $reproduce; then
-  pack_elsewhere
-fi
 say "packages: $(cd $packages && echo *.deb *.ddeb)"
