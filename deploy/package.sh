@@ -29,12 +29,28 @@ changelog() {
     "$(date -R -d "@$SOURCE_DATE_EPOCH")"
 }
 
+# CPack 3.25 lists the sums of debug symbols by the build's own paths, and gives them no documents: the
+# sums are listed anew, and the documents are those of the package that the symbols are of.
+mend_symbols() {
+  for file in $packages/*.ddeb; do
+    tree=$(mktemp -d)
+    name=$(dpkg-deb -f "$file" Package)
+    dpkg-deb -R "$file" "$tree/all"
+    (cd "$tree/all" && find usr -type f -exec chmod 644 {} + &&
+      find usr -type f -exec md5sum {} + | sort -k 2 >DEBIAN/md5sums &&
+      mkdir -p usr/share/doc && ln -s "${name%-dbgsym}" "usr/share/doc/$name")
+    dpkg-deb --root-owner-group -b "$tree/all" "$file" >/dev/null
+    rm -rf "$tree"
+  done
+}
+
 pack() {
   rm -rf $packages/man-* $packages/*.deb $packages/*.ddeb $packages/_CPack_Packages
   deploy/package/man_pages.sh build/release/bin $packages/man-runtime $packages/man-bench
   changelog "$(build/release/bin/lodesman --version)-$release" | gzip -9n >$packages/changelog.Debian.gz
   (cd build/release && quietly cpack -G DEB -D CPACK_DEBIAN_PACKAGE_RELEASE="$release")
   rm -rf $packages/_CPack_Packages
+  mend_symbols
 }
 
 # Two copies of the newest commit, in places of different names and depths. A compiler's cache is no

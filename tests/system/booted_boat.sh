@@ -246,7 +246,8 @@ cp build/release/package/lodesman_*-2_*.deb "$place/2.deb"
 deploy/package.sh
 cp build/release/package/lodesman_*-1_*.deb "$place/1.deb"
 version=$(build/release/bin/lodesman --version)
-lintian --allow-root --fail-on error,warning --tag-display-limit 0 build/release/package/*.deb || fail "lintian"
+lintian --allow-root --fail-on error,warning --tag-display-limit 0 build/release/package/*.deb build/release/package/*.ddeb ||
+  fail "lintian"
 
 start=$(now_ms)
 # shellcheck disable=SC2046  # names of packages
