@@ -13,6 +13,7 @@
 #include "deploy/boat/process_main.h"
 #include "deploy/boat/voyage.h"
 #include "high_level/mission/command_socket.h"
+#include "high_level/mission/network.h"
 #include "high_level/mission/token_file.h"
 #include "high_level/tasks/operator_desk.h"
 #include "mid_level/base/clock.h"
@@ -28,20 +29,25 @@ constexpr Duration kRefusalPatience = std::chrono::milliseconds{300};
 
 enum class Attachment : std::uint8_t { kFirst, kAgain };
 
-// The operator's way in: the desk, the socket before it, and the tokens that open it, which are
-// given or made for this run. The desk is the socket's thread's alone.
+[[nodiscard]] CommandTokens lasting_tokens(const CommandSocketSettings& settings) {
+  return settings.token_file.empty()
+             ? CommandTokens{}
+             : read_lasting_tokens(settings.token_file,
+                                   reach_of(settings.address).value_or(Reach::kNetwork));
+}
+
+// The operator's way in: the desk, the socket before it, and the tokens that open it: those made
+// for this run, and those of the boat's own file. The desk is the socket's thread's alone.
 class WayIn {
  public:
-  WayIn(Blackboard& board, const CommandSocketSettings& settings, const DeskOptions& options)
+  WayIn(Blackboard& board, const CommandSocketSettings& settings, const CommandTokens& lasting,
+        const DeskOptions& options)
       : desk_{board, Role::kHigh, options, [] { return SteadyClock{}.now(); }},
-        tokens_{settings.token_file.empty() ? random_tokens() : read_tokens(settings.token_file)},
-        socket_{{settings.address, settings.port, tokens_},
+        socket_{socket_options(settings, tokens_, lasting),
                 [this](const CommandRequest& request) { return desk_.answer(request); },
                 {[this](std::uint64_t session) { desk_.session_ended(session); },
-                 [this] { desk_.look(); }}} {
-    if (settings.token_file.empty()) {
-      token_file_.emplace(socket_.port(), tokens_);
-    }
+                 [this] { desk_.look(); }}},
+        token_file_{socket_.port(), tokens_} {
     if (settings.port == 0) {  // whoever asked for any port must be told which
       say("lodesman-high: command socket on " + settings.address + " port " +
           std::to_string(socket_.port()));
@@ -49,10 +55,18 @@ class WayIn {
   }
 
  private:
+  [[nodiscard]] static CommandSocketOptions socket_options(const CommandSocketSettings& settings,
+                                                           const CommandTokens& tokens,
+                                                           const CommandTokens& lasting) {
+    CommandSocketOptions options{settings.address, settings.port, tokens};
+    options.lasting_tokens = lasting;
+    return options;
+  }
+
   OperatorDesk desk_;
-  CommandTokens tokens_;
+  CommandTokens tokens_ = random_tokens();
   CommandSocket socket_;
-  std::optional<TokenFile> token_file_;
+  TokenFile token_file_;
 };
 
 // The mission's last word, on a segment that is left or on one that was found.
@@ -152,12 +166,12 @@ struct HighOptions : ProcessOptions {
 
 // Runs the high level on one segment until a stop is asked for or a new low level has made another.
 void sail(SharedBlackboard& board, const BoatConfig& config, const Voyage& voyage,
-          bool start_by_itself, bool arms) {
+          const CommandTokens& lasting, bool start_by_itself, bool arms) {
   HighLevel high{board.writable(), Role::kHigh, high_level_options(config, voyage)};
   DeskOptions at_the_desk = desk_options(config, voyage);
   at_the_desk.starts_by_itself = start_by_itself;
   at_the_desk.arms_by_itself |= start_by_itself && arms;
-  const WayIn way_in{board.writable(), config.command_socket, at_the_desk};
+  const WayIn way_in{board.writable(), config.command_socket, lasting, at_the_desk};
   const auto tasks = high.tasks();
   // Stopped, its tasks leave all safe; they go on where they stood.
   std::optional<RunningTasks> running;
@@ -194,6 +208,7 @@ int run(const HighOptions& options) {
   const Scenario* scenario = simulated ? &*simulated : nullptr;
   require_sound(config, scenario);
   const Voyage voyage = voyage_of(config, scenario);
+  const CommandTokens lasting = lasting_tokens(config.command_socket);
   // lodesman-low, which has the same rights, warns if they are missing.
   (void)set_up_realtime();
   auto board = attach(config.segment, Attachment::kFirst);
@@ -201,7 +216,7 @@ int run(const HighOptions& options) {
     report_what_was_found(*board);
   }
   while (board) {
-    sail(*board, config, voyage, start_by_itself, options.arm);
+    sail(*board, config, voyage, lasting, start_by_itself, options.arm);
     if (stop_asked()) {
       break;
     }

@@ -51,6 +51,9 @@ struct CommandLine {
 // speaks another protocol or lacks a token of the boat's.
 [[nodiscard]] CommandLine read_command_line(const std::string& line, const CommandTokens& tokens);
 
+// The same of a line in a session that has proved its token: it shows none.
+[[nodiscard]] CommandLine read_command_line(const std::string& line, Scope proved);
+
 // {"ok": false, "error": "..."}
 [[nodiscard]] std::string refusal(const std::string& reason);
 

@@ -226,7 +226,7 @@ TEST_CASE("refusals: sim refuses bad options and configurations", "[system][refu
 }
 
 TEST_CASE(
-    "refusals: an order names a port that can be, a host that is loopback and a sound token file",
+    "refusals: an order names a port that can be, a host whose token it has and a sound token file",
     "[system][refusals]") {
   const std::vector<std::vector<std::string>> rows{{"--port", "99999"},
                                                    {"--port", "65536"},

@@ -57,6 +57,7 @@ struct Library {
       {"boost/interprocess/", {"mid_level/blackboard/"}},
       {"libserialport.h", {"drivers/stream/"}},
       {"libusb.h", {"deploy/operator/doctor/"}},
+      {"sodium.h", {"high_level/mission/"}},
       {"boost/asio", {"high_level/mission/", "deploy/operator/", "drivers/", "hal_sim/"}},
       {"spdlog/", {"deploy/boat/"}},
       {"CLI/", {"deploy/"}},

@@ -13,6 +13,7 @@
 #include "deploy/operator/cli/segment_command.h"
 #include "deploy/operator/cli/sim_command.h"
 #include "deploy/operator/cli/thrust_commands.h"
+#include "deploy/operator/cli/token_command.h"
 #include "deploy/operator/cli/watch_command.h"
 
 int main(int argc, char** argv) {
@@ -34,5 +35,6 @@ int main(int argc, char** argv) {
   cli::add_decode_command(app, exit_status);
   cli::add_watch_command(app, exit_status);
   cli::add_doctor_command(app, exit_status);
+  cli::add_token_command(app, exit_status);
   return lodesman::process_main(app, argc, argv, [&] { return exit_status; });
 }

@@ -46,3 +46,19 @@ TEST_CASE("command line: what is no command is refused", "[high_level][mission]"
     CHECK(read.refusal.find("a command is a line") != std::string::npos);
   }
 }
+
+TEST_CASE("command line: where a token was proved none is shown, and its scope is the proof's",
+          "[high_level][mission]") {
+  const CommandLine read = read_command_line(R"({"command":"hold","protocol":2})", Scope::kAbort);
+  CHECK(read.refusal.empty());
+  CHECK(read.request.command == "hold");
+  CHECK(read.request.scope == Scope::kAbort);
+  for (const char* token : {R"("secret")", R"("")", "null"}) {
+    const std::string line = std::string{R"({"command":"hold","token":)"} + token + "}";
+    CHECK(read_command_line(line, Scope::kCommand).refusal.find("a token is never sent") !=
+          std::string::npos);
+  }
+  CHECK_FALSE(read_command_line("{}", Scope::kCommand).refusal.empty());
+  CHECK_FALSE(
+      read_command_line(R"({"command":"hold","protocol":1})", Scope::kCommand).refusal.empty());
+}
