@@ -36,6 +36,26 @@ enum class Attachment : std::uint8_t { kFirst, kAgain };
                                    reach_of(settings.address).value_or(Reach::kNetwork));
 }
 
+// Says that somebody is refused beyond loopback, and not more often than anybody wants to read.
+class RefusalLog {
+ public:
+  void refused(const std::string& address) {
+    ++count_;
+    if (const Time now = clock_.now(); !said_ || now - *said_ >= kPeriod) {
+      spdlog::warn("command socket: a wrong proof of a token from {}; {} since this was said last",
+                   address, count_);
+      said_ = now;
+      count_ = 0;
+    }
+  }
+
+ private:
+  static constexpr Duration kPeriod = std::chrono::seconds{60};
+  SteadyClock clock_;
+  std::optional<Time> said_;
+  std::uint64_t count_ = 0;  // since it was said last
+};
+
 // The operator's way in: the desk, the socket before it, and the tokens that open it: those made
 // for this run, and those of the boat's own file. The desk is the socket's thread's alone.
 class WayIn {
@@ -46,7 +66,8 @@ class WayIn {
         socket_{socket_options(settings, tokens_, lasting),
                 [this](const CommandRequest& request) { return desk_.answer(request); },
                 {[this](std::uint64_t session) { desk_.session_ended(session); },
-                 [this] { desk_.look(); }}},
+                 [this] { desk_.look(); },
+                 [this](const std::string& address) { refusals_.refused(address); }}},
         token_file_{socket_.port(), tokens_} {
     if (settings.port == 0) {  // whoever asked for any port must be told which
       say("lodesman-high: command socket on " + settings.address + " port " +
@@ -64,6 +85,7 @@ class WayIn {
   }
 
   OperatorDesk desk_;
+  RefusalLog refusals_;
   CommandTokens tokens_ = random_tokens();
   CommandSocket socket_;
   TokenFile token_file_;

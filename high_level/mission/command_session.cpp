@@ -19,9 +19,9 @@ Time socket_time() noexcept {
   return Time{asio::steady_timer::clock_type::now().time_since_epoch()};
 }
 
-CommandSession::CommandSession(tcp::socket socket_in, NetworkId network)
-    : socket{std::move(socket_in)}, timer{socket.get_executor()} {
-  place.network = network;
+CommandSession::CommandSession(tcp::socket socket_in, const std::string& address_in)
+    : socket{std::move(socket_in)}, timer{socket.get_executor()}, address{address_in} {
+  place.network = network_of(address);
   place.heard = socket_time();
 }
 

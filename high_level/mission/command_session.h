@@ -28,7 +28,7 @@ struct ProvedToken {
 };
 
 struct CommandSession {
-  CommandSession(boost::asio::ip::tcp::socket socket_in, NetworkId network);
+  CommandSession(boost::asio::ip::tcp::socket socket_in, const std::string& address_in);
 
   void end() noexcept;
   // Beyond loopback.
@@ -39,6 +39,7 @@ struct CommandSession {
   boost::asio::steady_timer timer;
   std::string buffer;
   std::uint64_t id = 0;
+  std::string address;  // of the client
   SessionPlace place;
   std::optional<ProvedToken> proved;
 };

@@ -93,6 +93,9 @@ struct CommandSocket::Impl {
     co_await send_line(session, std::move(verdict.reply));
     if (verdict.scope == Scope::kNone) {
       limit.failed(session.place.network, socket_time());
+      if (events.refused && session.is_far()) {
+        events.refused(session.address);
+      }
       co_return false;
     }
     session.proved = {verdict.scope, {verdict.keys, SessionEnd::kBoat}};
@@ -182,8 +185,8 @@ struct CommandSocket::Impl {
     error_code error;
     const tcp::endpoint client = socket.remote_endpoint(error);
     if (!error && (sessions.size() < kMaxSessions || make_room())) {
-      const NetworkId network = network_of(client.address().to_string());
-      sessions.push_back(std::make_shared<CommandSession>(std::move(socket), network));
+      const std::string address = client.address().to_string();
+      sessions.push_back(std::make_shared<CommandSession>(std::move(socket), address));
       sessions.back()->id = ++session_count;
       asio::co_spawn(context, serve(sessions.back()), asio::detached);
     }

@@ -30,6 +30,8 @@ struct CommandSocketOptions {
 struct CommandSocketEvents {
   std::function<void(std::uint64_t session)> ended;  // one that had shown a token
   std::function<void()> look;                        // every kLookPeriod
+  // A token was not proved, from beyond loopback.
+  std::function<void(const std::string& address)> refused;
 };
 inline constexpr Duration kLookPeriod = std::chrono::milliseconds{20};
 

@@ -91,6 +91,27 @@ TEST_CASE("remote: a boat is started, held, stopped and asked from outside by it
             .status == 0);
 }
 
+TEST_CASE("remote: over IPv6 too, and by a name", "[system]") {
+  const auto own = own_address(AF_INET6);
+  if (!own) {
+    return;
+  }
+  const Scratch scratch{"remote-ipv6"};
+  RemoteBoat boat{scratch, *own};
+  REQUIRE(boat.sails());
+  CHECK(boat.tell({"abort"}) == 0);
+  CHECK(boat.mission().state == MissionState::kAborted);
+  // A name may be anybody's: behind one the token is proved, wherever it leads. This is one that
+  // every resolver knows.
+  const Said by_name =
+      said_by(scratch, {"status", "--host", "127.1", "--port", std::to_string(boat.port()),
+                        "--token-file", boat.token_file().string(), "--quiet"});
+  CHECK(by_name.status == 0);
+  const Said without =
+      said_by(scratch, {"status", "--host", "127.1", "--port", std::to_string(boat.port())});
+  CHECK(without.status == 2);
+}
+
 TEST_CASE("remote: who lacks the token file, or has another, is told so in one line", "[system]") {
   const auto own = own_address(AF_INET);
   if (!own) {

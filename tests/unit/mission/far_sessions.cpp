@@ -49,13 +49,17 @@ std::string did(const std::string& command, Scope scope) {
 // A socket on all addresses, and this machine's own beyond loopback.
 struct FarBench {
   explicit FarBench(const std::string& own, const CommandSocketOptions& options)
-      : address{own}, socket{options, tell_scope(handled)} {}
+      : address{own},
+        socket{options, tell_scope(handled), {{}, {}, [this](const std::string& from) {
+                                                refused += from == address ? 1 : 0;
+                                              }}} {}
   explicit FarBench(const std::string& own) : FarBench{own, options_at(own)} {}
   [[nodiscard]] FarClient far() const { return {address, socket.port()}; }
   [[nodiscard]] FarClient near() const { return {"127.0.0.1", socket.port()}; }
 
   std::string address;
   std::atomic<int> handled{0};
+  std::atomic<int> refused{0};
   CommandSocket socket;
 };
 
@@ -236,6 +240,7 @@ TEST_CASE("far sessions: whoever holds the token gets in while others guess and 
     FarClient guess = bench.far();
     CHECK_FALSE(guess.prove(std::string(64, 'e')));
   }
+  CHECK(bench.refused == 2 * kNetworkFailures);
   FarClient client = bench.far();
   REQUIRE(client.prove(kLastingToken));
   CHECK(client.ask(kAbort) == did("abort", Scope::kCommand));
