@@ -13,8 +13,8 @@ clang_packages="clang libclang-rt-14-dev clang-tidy clang-format-14"
 # For tests/system/gpsd.cpp, which is skipped without it. No part of test_packages: its udev rules
 # hand USB serial adapters to gpsd, which probes them, on whatever machine it is installed.
 gpsd_packages="gpsd"
-# For tests/measure/suite_repeat.sh.
-load_packages="stress-ng"
+# For lodesman rt-test (its load, and cyclictest beside it) and for what is measured under load.
+load_packages="stress-ng rt-tests"
 
 say() { echo "lodesman: $*" >&2; }
 

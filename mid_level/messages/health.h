@@ -31,6 +31,8 @@ struct TaskHealth {
   // that; the last also counts what was later still.
   std::array<std::uint64_t, kLateBuckets> late{};       // [-]
   std::array<std::uint64_t, kLateBuckets> wake_late{};  // [-] woken ones, after the newest ring
+  // All steps, by how long they took, in the same powers of two.
+  std::array<std::uint64_t, kLateBuckets> took{};  // [-]
 
   static constexpr auto fields() noexcept {
     using T = TaskHealth;
@@ -46,7 +48,8 @@ struct TaskHealth {
                       measured_field("over_budget", &T::over_budget),
                       measured_field("past_deadline", &T::past_deadline),
                       measured_field("late", &T::late),
-                      measured_field("wake_late", &T::wake_late)};
+                      measured_field("wake_late", &T::wake_late),
+                      measured_field("took", &T::took)};
   }
 };
 

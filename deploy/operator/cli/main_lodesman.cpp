@@ -10,6 +10,7 @@
 #include "deploy/operator/cli/doctor_command.h"
 #include "deploy/operator/cli/operator_commands.h"
 #include "deploy/operator/cli/plan_command.h"
+#include "deploy/operator/cli/rt_test_command.h"
 #include "deploy/operator/cli/segment_command.h"
 #include "deploy/operator/cli/sim_command.h"
 #include "deploy/operator/cli/thrust_commands.h"
@@ -34,5 +35,6 @@ int main(int argc, char** argv) {
   cli::add_decode_command(app, exit_status);
   cli::add_watch_command(app, exit_status);
   cli::add_doctor_command(app, exit_status);
+  cli::add_rt_test_command(app, exit_status);
   return lodesman::process_main(app, argc, argv, [&] { return exit_status; });
 }

@@ -86,6 +86,8 @@ TEST_CASE("health: steps, the latest of them and missed periods are published on
   CHECK(newest->value.fifo_priority == 60);
   CHECK(newest->value.late[0] == 150);
   CHECK(newest->value.late[late_bucket(milliseconds{3})] == 1);
+  CHECK(newest->value.took[late_bucket(milliseconds{1})] == 150);
+  CHECK(newest->value.took[late_bucket(milliseconds{90})] == 1);
 }
 
 TEST_CASE("health watch: a task is silent when its word is overdue", "[mid_level][runtime]") {
