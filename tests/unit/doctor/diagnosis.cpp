@@ -105,7 +105,7 @@ TEST_CASE("doctor: this machine can be measured", "[cli]") {
   REQUIRE(facts.segment_bytes > kMiB);
   REQUIRE(facts.lock_needed_bytes > facts.segment_bytes);
   REQUIRE(facts.configuration_error.empty());
-  REQUIRE(judge(facts).size() == 9);
+  REQUIRE(judge(facts).size() == 10);
 }
 
 }  // namespace
