@@ -4,7 +4,7 @@
 build_packages="g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev libspdlog-dev
   libopencv-core-dev libopencv-imgproc-dev libpng-dev libturbojpeg0-dev libtomlplusplus-dev
   libcli11-dev nlohmann-json3-dev libgeographiclib-dev libxxhash-dev libserialport-dev
-  libusb-1.0-0-dev gnuplot-nox"
+  libusb-1.0-0-dev libzstd-dev zlib1g-dev gnuplot-nox"
 test_packages="catch2"
 # For tests/bench, which is built with -DLODESMAN_BENCH=ON.
 bench_packages="libbenchmark-dev"

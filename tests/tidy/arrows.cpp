@@ -51,7 +51,9 @@ struct Library {
   static const std::vector<Library> table{
       {"opencv2/", {"low_level/sonar/"}},
       {"png.h", {"low_level/sonar/"}},
-      {"turbojpeg.h", {"low_level/sonar/"}},
+      {"turbojpeg.h", {"low_level/sonar/", "mid_level/recording/"}},
+      {"zlib.h", {"mid_level/recording/"}},
+      {"zstd.h", {"mid_level/recording/"}},
       {"toml++/", {"mid_level/config/"}},
       {"GeographicLib/", {"mid_level/base/"}},
       {"boost/interprocess/", {"mid_level/blackboard/"}},
