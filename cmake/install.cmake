@@ -1,10 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
 # Where things go with `cmake --install`. Programs find what is shared beside themselves, whatever the
-# prefix.
+# prefix. Each component is a package (cmake/package.cmake).
 include(GNUInstallDirs)
-install(TARGETS lodesman lodesman-low lodesman-high RUNTIME)
-install(DIRECTORY deploy/config deploy/pictures DESTINATION ${CMAKE_INSTALL_DATADIR}/lodesman/deploy)
-install(DIRECTORY hal_sim/scenarios hal_sim/vessels DESTINATION ${CMAKE_INSTALL_DATADIR}/lodesman/hal_sim)
-install(DIRECTORY docs/ TYPE DOC)
-install(FILES README.md LICENSE TYPE DOC)
-install(FILES deploy/udev/60-lodesman.rules DESTINATION lib/udev/rules.d)
+set(share ${CMAKE_INSTALL_DATADIR}/lodesman)
+install(TARGETS lodesman lodesman-low lodesman-high RUNTIME COMPONENT runtime)
+if(TARGET lodesman-allocations)  # where lodesman rt-test looks for it
+  install(TARGETS lodesman-allocations LIBRARY DESTINATION lib/lodesman COMPONENT runtime)
+endif()
+install(TARGETS lodesman-bench lodesman-devices RUNTIME COMPONENT bench)
+install(DIRECTORY deploy/config deploy/pictures DESTINATION ${share}/deploy COMPONENT runtime
+        PATTERN boat.toml EXCLUDE)
+install(DIRECTORY hal_sim/scenarios hal_sim/vessels DESTINATION ${share}/hal_sim COMPONENT runtime)
+install(DIRECTORY docs/ TYPE DOC COMPONENT doc)
+install(FILES README.md TYPE DOC COMPONENT doc)
+install(FILES LICENSE TYPE DOC COMPONENT licence)
+install(FILES deploy/udev/60-lodesman.rules DESTINATION lib/udev/rules.d COMPONENT runtime)
+install(FILES deploy/systemd/lodesman.target deploy/systemd/lodesman-low.service
+        deploy/systemd/lodesman-high.service DESTINATION lib/systemd/system COMPONENT runtime)
+install(FILES deploy/package/lodesman.sysusers DESTINATION lib/sysusers.d RENAME lodesman.conf
+        COMPONENT runtime)
+install(FILES deploy/package/lodesman.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+        RENAME lodesman COMPONENT runtime)

@@ -15,8 +15,9 @@ target_compile_options(lodesman_flags INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
 target_compile_definitions(lodesman_flags INTERFACE _GLIBCXX_ASSERTIONS)
 target_link_libraries(lodesman_flags INTERFACE Threads::Threads)
-# A program loads no library that it calls nothing of.
-target_link_options(lodesman_flags INTERFACE LINKER:--as-needed)
+# A program loads no library that it calls nothing of, and finds all that it calls when it is loaded:
+# no real-time step is the first to look a function up.
+target_link_options(lodesman_flags INTERFACE LINKER:--as-needed LINKER:-z,relro,-z,now)
 
 # For what nothing waits for: the tests themselves, and what speaks with people. Compiling it takes
 # most of a cold build's time, half of that without much optimising, and most of the rest for the
@@ -24,6 +25,13 @@ target_link_options(lodesman_flags INTERFACE LINKER:--as-needed)
 function(lodesman_compile_fast name)
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:None>:-O0>)
   set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
+endfunction()
+
+# What is shipped: the same bytes wherever it was built, and lines for who reads a backtrace, which
+# the package has apart.
+function(lodesman_compile_to_ship name)
+  target_compile_options(${name} PRIVATE
+    -ffile-prefix-map=${PROJECT_SOURCE_DIR}/= $<$<CONFIG:Release>:-g1>)
 endfunction()
 
 # One static library a room, its target named by the whole path:
@@ -38,6 +46,7 @@ function(lodesman_room room)
   add_library(lodesman::${alias} ALIAS lodesman_${name})
   target_link_libraries(lodesman_${name} PUBLIC lodesman_flags ${ARG_LINKS}
                                          PRIVATE ${ARG_PRIVATE_LINKS})
+  lodesman_compile_to_ship(lodesman_${name})
   if(room MATCHES "^deploy/")
     lodesman_compile_fast(lodesman_${name})
   endif()
@@ -48,5 +57,6 @@ function(lodesman_program name)
   cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
   add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PRIVATE lodesman_flags ${ARG_LINKS})
+  lodesman_compile_to_ship(${name})
   lodesman_compile_fast(${name})
 endfunction()

@@ -4,17 +4,21 @@
 build_packages="g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev libspdlog-dev
   libopencv-core-dev libopencv-imgproc-dev libpng-dev libturbojpeg0-dev libtomlplusplus-dev
   libcli11-dev nlohmann-json3-dev libgeographiclib-dev libxxhash-dev libserialport-dev
-  libusb-1.0-0-dev gnuplot-nox"
+  libusb-1.0-0-dev libsodium-dev libsystemd-dev libzstd-dev zlib1g-dev gnuplot-nox"
 test_packages="catch2"
 # For tests/bench, which is built with -DLODESMAN_BENCH=ON.
 bench_packages="libbenchmark-dev"
 # For the presets asan, tsan, fuzz and tidy, and for the layout of the sources.
 clang_packages="clang libclang-rt-14-dev clang-tidy clang-format-14"
-# For tests/system/gpsd.cpp, which is skipped without it. No part of test_packages: its udev rules
-# hand USB serial adapters to gpsd, which probes them, on whatever machine it is installed.
-gpsd_packages="gpsd"
-# For tests/measure/suite_repeat.sh.
-load_packages="stress-ng"
+# For tests/system/gpsd.cpp and, with gpsfake, gpsd_tracks.cpp, which are skipped without them. No
+# part of test_packages: gpsd's udev rules hand USB serial adapters to it, which it probes, on
+# whatever machine it is installed.
+gpsd_packages="gpsd gpsd-clients"
+# For deploy/package.sh, and for tests/system/booted_boat.sh, which boots what was packed.
+package_packages="dpkg-dev file help2man"
+booted_packages="iproute2 lintian mmdebstrap systemd-container"
+# For lodesman rt-test (its load, and cyclictest beside it) and for what is measured under load.
+load_packages="stress-ng rt-tests"
 
 say() { echo "lodesman: $*" >&2; }
 

@@ -40,6 +40,12 @@ void require_sound_vessel(const BoatConfig& config) {
 }
 
 void require_sound_position(const BoatConfig& config, const Voyage& voyage, bool has_truth) {
+  if (!voyage.origin && voyage.position_source != PositionSource::kGps) {
+    config.document.root().table("origin").refuse(
+        "at_start",
+        "the first fixes would be the origin, and none are taken: the position's source "
+        "must be gps (estimator.position_source), or give deg");
+  }
   const TomlTable estimator = config.document.root().table("estimator");
   const PositionSource source = voyage.position_source;
   if (source == PositionSource::kTruth && is_real_address(config.devices.thrusters)) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "deploy/boat/level_options.h"
+#include "high_level/mission/network.h"
 #include "mid_level/config/read_speed_table.h"
 
 namespace lodesman {
@@ -67,8 +68,18 @@ namespace {
 }
 
 [[nodiscard]] CommandSocketSettings read_command_socket(const TomlTable& table) {
-  return {table.text("address", 64), static_cast<std::uint16_t>(table.integer("port", 0, 65535)),
-          table.text("token_file", 4096, 0)};
+  CommandSocketSettings settings{table.text("address", 64),
+                                 static_cast<std::uint16_t>(table.integer("port", 0, 65535)),
+                                 table.text("token_file", 4096, 0)};
+  const auto reach = reach_of(settings.address);
+  if (!reach) {
+    table.refuse("address", "must be an IP address");
+  }
+  if (reach == Reach::kNetwork && settings.token_file.empty()) {
+    table.refuse("address",
+                 "beyond loopback a token_file is needed: lodesman token --new FILE makes one");
+  }
+  return settings;
 }
 
 [[nodiscard]] DeviceAddresses read_devices(const TomlTable& table) {
@@ -83,12 +94,12 @@ namespace {
           table.duration("sonar_view_period_s", Range::between(0.05, 60.0))};
 }
 
-[[nodiscard]] GeoPoint read_origin(const TomlTable& table) {
+[[nodiscard]] std::optional<GeoPoint> read_origin(const TomlTable& table) {
   const auto deg = table.pair("deg", Range::between(-180.0, 180.0));
   if (std::abs(deg[0]) > 85.0) {
     table.refuse("deg", "latitude must be at least -85 and at most 85");
   }
-  return {deg[0], deg[1]};
+  return table.boolean("at_start") ? std::nullopt : std::optional{GeoPoint{deg[0], deg[1]}};
 }
 
 [[nodiscard]] std::optional<PositionSource> read_position_source(const TomlTable& estimator) {

@@ -65,7 +65,8 @@ struct BoatConfig {
   DeviceAddresses devices;
   CommandSocketSettings command_socket;
   SimulationSettings simulation;
-  GeoPoint origin;                         // of the world frame, where no scenario has one
+  // Of the world frame, where no scenario has one; empty: by the first fixes.
+  std::optional<GeoPoint> origin;
   std::optional<PositionSource> position;  // empty: what there is
   MissionDefaults mission;
   double speed_limit_m_s = 0.0;

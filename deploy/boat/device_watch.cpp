@@ -7,6 +7,8 @@
 #include <cmath>
 #include <ctime>
 
+#include "deploy/boat/log.h"
+
 namespace lodesman {
 namespace {
 
@@ -31,6 +33,7 @@ DeviceWatch::DeviceWatch(const Blackboard& board, const DeviceAddresses& address
                Reader<DeviceHealth>{board.device_health[3]}},
       arming_{board.thrust_status},
       battery_{board.battery_status},
+      guard_{board.guard_status},
       fixes_{board.position_fix} {}
 
 void DeviceWatch::say_news(Time now) {
@@ -38,6 +41,7 @@ void DeviceWatch::say_news(Time now) {
     look_at(static_cast<DeviceId>(i), now);
   }
   look_at_arming();
+  look_at_guard();
   look_at_clock();
 }
 
@@ -55,14 +59,17 @@ void DeviceWatch::look_at(DeviceId id, Time now) {
     return;
   }
   const bool was_ill = !is_well(told.status) || told.fault != DeviceFault::kNone;
-  const std::string what = std::string{to_string(id)} + " (" + addresses_[i] + ")";
-  if (is_well(health.status) && health.fault == DeviceFault::kNone) {
-    if (was_ill) {
-      spdlog::info("{}: {}", what, to_string(health.status));
-    }
-  } else {
+  const bool is_ill = !is_well(health.status) || health.fault != DeviceFault::kNone;
+  if (is_ill || was_ill) {
     const char* why = describe(health.fault);
-    spdlog::warn("{}: {}{}{}", what, to_string(health.status), why[0] != '\0' ? ": " : "", why);
+    const std::array fields{JournalField{"LODESMAN_DEVICE", to_string(id)},
+                            JournalField{"LODESMAN_ADDRESS", addresses_[i]},
+                            JournalField{"LODESMAN_STATUS", to_string(health.status)},
+                            JournalField{"LODESMAN_FAULT", to_string(health.fault)}};
+    log_with_fields(is_ill ? LineLevel::kWarning : LineLevel::kInfo,
+                    fmt::format("{} ({}): {}{}{}", to_string(id), addresses_[i],
+                                to_string(health.status), why[0] != '\0' ? ": " : "", why),
+                    fields);
   }
   told = {health.status, health.fault};
 }
@@ -87,6 +94,27 @@ void DeviceWatch::look_at_clock() {
     spdlog::warn("{} by the receiver at {:.3f} s of the boat's clock; this machine is {:.0f} s {}",
                  told, boat_s, std::abs(ahead_s), ahead_s > 0.0 ? "ahead" : "behind");
   }
+}
+
+// A trip is told once, however short it was, and so is that it sees nothing.
+void DeviceWatch::look_at_guard() {
+  const auto* newest = guard_.latest();
+  if (newest == nullptr) {
+    return;
+  }
+  const GuardStatus& guard = newest->value;
+  if (guard.trips > told_trips_) {
+    spdlog::warn(
+        "guard: stopped at {:.2f} m/s ({}{})", guard.trip_speed_m_s, to_string(guard.reason),
+        guard.reason == GuardReason::kObstacle ? fmt::format(", {:.2f} m off", guard.distance_m)
+                                               : "");
+  }
+  told_trips_ = guard.trips;
+  const bool is_blind = guard.state == GuardState::kBlind;
+  if (is_blind != (told_guard_ == GuardState::kBlind)) {
+    spdlog::warn("guard: {}", is_blind ? "blind, there is no sonar frame" : "sees again");
+  }
+  told_guard_ = guard.state;
 }
 
 void DeviceWatch::look_at_arming() {

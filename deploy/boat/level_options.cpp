@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/boat/level_options.h"
 
+#include <algorithm>
+
 #include "drivers/hal/thrust_shape.h"
 #include "mid_level/base/frames.h"
 #include "mid_level/base/startup_error.h"
+#include "mid_level/config/read_speed_table.h"
 
 namespace lodesman {
+namespace {
+
+constexpr double kLongestRamp_s = 10.0;
+
+}  // namespace
 
 SegmentationOptions read_segmentation_options(const TomlTable& table) {
   const auto count = [&table](std::string_view key, std::int64_t min, std::int64_t max) {
@@ -59,6 +67,69 @@ namespace {
   return to_rad(mounting.number(key, Range::between(-180.0, 180.0)));
 }
 
+[[nodiscard]] VehicleModelParameters read_vehicle_model(const TomlTable& vehicle) {
+  const auto positive = [&vehicle](std::string_view key, double most) {
+    return vehicle.number(key, Range::above(0.0, most));
+  };
+  const auto any = [&vehicle](std::string_view key, double most) {
+    return vehicle.number(key, Range::between(0.0, most));
+  };
+  VehicleModelParameters model;
+  model.mass_kg = positive("mass_kg", 1e6);
+  model.added_mass_surge_kg = any("added_mass_surge_kg", 1e6);
+  model.added_mass_sway_kg = any("added_mass_sway_kg", 1e6);
+  model.yaw_inertia_kg_m2 = positive("yaw_inertia_kg_m2", 1e7);
+  model.added_yaw_inertia_kg_m2 = any("added_yaw_inertia_kg_m2", 1e7);
+  model.surge_drag_n_s_per_m = positive("surge_drag_n_s_per_m", 1e6);
+  model.surge_drag_n_s2_per_m2 = any("surge_drag_n_s2_per_m2", 1e6);
+  model.sway_drag_n_s_per_m = positive("sway_drag_n_s_per_m", 1e6);
+  model.sway_drag_n_s2_per_m2 = any("sway_drag_n_s2_per_m2", 1e6);
+  model.yaw_drag_n_m_s = positive("yaw_drag_n_m_s", 1e7);
+  model.yaw_drag_n_m_s2 = any("yaw_drag_n_m_s2", 1e7);
+  model.turning_n_m_per_head_ref = positive("turning_n_m_per_head_ref", 1e4);
+  return model;
+}
+
+[[nodiscard]] HullResponse read_hull_response(const TomlTable& configuration) {
+  const TomlTable vehicle = configuration.table("vehicle");
+  const VehicleModelParameters model = read_vehicle_model(vehicle);
+  HullResponse hull;
+  hull.mass_kg = model.mass_kg + model.added_mass_surge_kg;
+  hull.surge_drag_n_s_per_m = model.surge_drag_n_s_per_m;
+  hull.surge_drag_n_s2_per_m2 = model.surge_drag_n_s2_per_m2;
+  hull.yaw_inertia_kg_m2 = model.yaw_inertia_kg_m2 + model.added_yaw_inertia_kg_m2;
+  hull.yaw_drag_n_m_s = model.yaw_drag_n_m_s;
+  hull.yaw_drag_n_m_s2 = model.yaw_drag_n_m_s2;
+  hull.turning_n_m_per_head_ref = model.turning_n_m_per_head_ref;
+  hull.astern_share = configuration.table("guard").number("astern_share", Range::above(0.0, 1.0));
+  hull.speeds = read_speed_table(vehicle);
+  return hull;
+}
+
+// Until a box that ramps its thrust, and rests before it reverses, gives half of it.
+[[nodiscard]] Duration brake_delay(const ThrustShapeOptions& shape) {
+  const double ramp_s = shape.slew_per_s > 0.0 ? 0.5 / shape.slew_per_s : 0.0;
+  return shape.zero_pause + from_seconds(std::min(ramp_s, kLongestRamp_s));
+}
+
+[[nodiscard]] GuardOptions read_guard_options(const TomlTable& configuration) {
+  const TomlTable guard = configuration.table("guard");
+  const TomlTable vehicle = configuration.table("vehicle");
+  GuardOptions options;
+  options.is_on = guard.boolean("enabled");
+  options.margin_m = guard.number("margin_m", Range::between(0.0, 20.0));
+  options.release_m = guard.number("release_m", Range::between(0.0, 20.0));
+  options.reaction = guard.duration("reaction_s", Range::between(0.0, 2.0));
+  options.silence_neutral = guard.duration("silence_neutral_s", Range::between(0.0, 60.0));
+  options.brake_max = guard.duration("brake_max_s", Range::between(0.1, 120.0));
+  options.brake_delay = brake_delay(read_thrust_shape(vehicle));
+  options.frame_age_max = max_age::kSonarFrame;
+  options.hull_half_length_m = vehicle.number("hull_length_m", Range::above(0.0, 100.0)) / 2.0;
+  options.hull_half_beam_m = vehicle.number("hull_beam_m", Range::above(0.0, 50.0)) / 2.0;
+  options.hull = read_hull_response(configuration);
+  return options;
+}
+
 }  // namespace
 
 LowLevelOptions read_low_level_options(const TomlTable& configuration) {
@@ -70,6 +141,8 @@ LowLevelOptions read_low_level_options(const TomlTable& configuration) {
   if (zones.choice("source", {"own", "protection"}) == 0) {
     options.delta_t.own_zones = own;
   }
+  options.position.far_max_m =
+      configuration.table("origin").number("far_max_m", Range::above(0.0, 1e6));
   const TomlTable battery = configuration.table("battery");
   const TomlTable mounting = configuration.table("mounting");
   options.heading_turn_rad = read_turn(mounting, "heading_deg");
@@ -90,6 +163,7 @@ LowLevelOptions read_low_level_options(const TomlTable& configuration) {
   oracle.velocity_sigma_m_s = tracks.number("velocity_sigma_m_s", Range::between(0.0, 1.0));
   oracle.dropout = tracks.number("dropout", Range::between(0.0, 0.99));
   oracle.memory = tracks.duration("memory_s", Range::between(0.0, 3600.0));
+  options.thruster.guard = read_guard_options(configuration);
   return options;
 }
 
@@ -100,9 +174,10 @@ namespace {
   const TomlTable zones = configuration.table("zones");
   options.zones.hull_radius_m = zones.number("hull_radius_m", Range::between(0.0, 10.0));
   options.zones.margin_m = zones.number("margin_m", Range::between(0.0, 20.0));
-  options.zones.margin_per_speed_s = zones.number("margin_per_speed_s", Range::between(0.0, 20.0));
-  options.zones.margin_per_turning_radius =
-      zones.number("margin_per_turning_radius", Range::between(0.0, 20.0));
+  options.zones.margin_per_stopping_way =
+      zones.number("margin_per_stopping_way", Range::between(0.0, 20.0));
+  options.zones.margin_per_turning_way =
+      zones.number("margin_per_turning_way", Range::between(0.0, 20.0));
   options.zones.least_margin_m = zones.number("least_margin_m", Range::between(0.0, 20.0));
   options.zones.doubt_sigmas = zones.number("doubt_sigmas", Range::between(0.0, 10.0));
   options.zones.own_doubt_share = zones.number("own_doubt_share", Range::between(0.0, 1.0));
@@ -124,36 +199,7 @@ namespace {
   options.response.hull_half_length_m =
       vehicle.number("hull_length_m", Range::above(0.0, 100.0)) / 2.0;
   options.response.hull_half_beam_m = vehicle.number("hull_beam_m", Range::above(0.0, 50.0)) / 2.0;
-  options.response.surge_time_s = vehicle.number("surge_time_s", Range::above(0.0, 100.0));
-  options.response.turn_rate_max_rad_s =
-      vehicle.number("turn_rate_max_rad_s", Range::above(0.0, 5.0));
-  options.zones.turn_rate_max_rad_s = options.response.turn_rate_max_rad_s;
-  options.response.heading_gain_per_s =
-      vehicle.number("heading_gain_per_s", Range::above(0.0, 100.0));
   return options;
-}
-
-[[nodiscard]] VehicleModelParameters read_vehicle_model(const TomlTable& vehicle) {
-  const auto positive = [&vehicle](std::string_view key, double most) {
-    return vehicle.number(key, Range::above(0.0, most));
-  };
-  const auto any = [&vehicle](std::string_view key, double most) {
-    return vehicle.number(key, Range::between(0.0, most));
-  };
-  VehicleModelParameters model;
-  model.mass_kg = positive("mass_kg", 1e6);
-  model.added_mass_surge_kg = any("added_mass_surge_kg", 1e6);
-  model.added_mass_sway_kg = any("added_mass_sway_kg", 1e6);
-  model.yaw_inertia_kg_m2 = positive("yaw_inertia_kg_m2", 1e7);
-  model.added_yaw_inertia_kg_m2 = any("added_yaw_inertia_kg_m2", 1e7);
-  model.surge_drag_n_s_per_m = positive("surge_drag_n_s_per_m", 1e6);
-  model.surge_drag_n_s2_per_m2 = any("surge_drag_n_s2_per_m2", 1e6);
-  model.sway_drag_n_s_per_m = positive("sway_drag_n_s_per_m", 1e6);
-  model.sway_drag_n_s2_per_m2 = any("sway_drag_n_s2_per_m2", 1e6);
-  model.yaw_drag_n_m_s = positive("yaw_drag_n_m_s", 1e7);
-  model.yaw_drag_n_m_s2 = any("yaw_drag_n_m_s2", 1e7);
-  model.turning_n_m_per_head_ref = any("turning_n_m_per_head_ref", 1e4);
-  return model;
 }
 
 [[nodiscard]] FixGateOptions read_fix_gate_options(const TomlTable& estimator) {
@@ -200,15 +246,12 @@ HighLevelOptions read_high_level_options(const TomlTable& configuration, const S
   replanner.previous_path_max_age =
       planner.duration("previous_path_max_age_s", Range::between(0.0, 1e6));
   PilotOptions pilot = read_pilot_options(configuration);
-  options.controller.heading_lead_s =
+  options.controller.steering.heading_lead_s =
       configuration.table("pilot").number("heading_lead_s", Range::between(0.0, 10.0));
   options.controller.look_ahead_s =
       configuration.table("pilot").number("look_ahead_s", Range::between(0.0, 60.0));
   pilot.look_ahead_s = options.controller.look_ahead_s;
   options.controller.look_ahead_m = pilot.response.look_ahead_m;
-  if (planner.choice("space", {"world", "sonar_view"}) == 0) {
-    replanner.pilot = pilot;
-  }
   options.planner.progress.patience =
       configuration.table("progress").duration("patience_s", Range::between(1.0, 3600.0));
   const TomlTable guidance = configuration.table("guidance");
@@ -217,19 +260,27 @@ HighLevelOptions read_high_level_options(const TomlTable& configuration, const S
   options.planner.mission.waypoint_radius_m = options.controller.waypoint_radius_m;
   options.planner.mission.speeds = speeds;
   const TomlTable control = configuration.table("control");
-  options.controller.heading_gain_per_deg =
+  options.controller.steering.heading_gain_per_deg =
       control.number("heading_gain_per_deg", Range::above(0.0, 100.0));
   const TomlTable estimator = configuration.table("estimator");
   auto& reckoning = options.estimator.dead_reckoning;
   reckoning.step = estimator.duration("dead_reckoning_step_s", Range::between(0.01, 1.0));
   const double k_m_s = estimator.number("speed_per_surge_ref_m_s", Range::between(0.0, 1.0));
   reckoning.speeds = k_m_s > 0.0 ? SpeedTable::proportional(k_m_s) : speeds;
-  options.estimator.surge_lag = estimator.duration("surge_lag_s", Range::between(0.0, 100.0));
+  options.estimator.surge_at_once = k_m_s > 0.0;
   options.estimator.current_time =
       estimator.duration("current_time_s", Range::between(0.0, 1000.0));
   options.estimator.antenna = read_place_aboard(configuration.table("mounting"), "antenna_m");
   options.estimator.filter = read_pose_filter_options(configuration);
   options.estimator.filter.speeds = speeds;
+  pilot.response.model = VehicleModel{options.estimator.filter.vehicle, speeds};
+  pilot.response.steering = options.controller.steering;
+  if (planner.choice("space", {"world", "sonar_view"}) == 0) {
+    replanner.pilot = pilot;
+  }
+  options.estimator.origin_search = {
+      configuration.table("origin").number("at_start_sigma_m", Range::above(0.0, 100.0)),
+      options.estimator.filter.gate.sigma_unknown_m};
   return options;
 }
 

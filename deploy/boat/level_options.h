@@ -11,8 +11,8 @@ namespace lodesman {
 
 // What the drivers of real thruster boxes make of a command, from section [vehicle].
 [[nodiscard]] ThrustShapeOptions read_thrust_shape(const TomlTable& vehicle);
-// Reads [segmentation], [zones], [mounting], [battery] and [tracks]; the scene comes from
-// elsewhere.
+// Reads [segmentation], [zones], [mounting], [battery], [tracks], [guard] and of [vehicle] what the
+// guard goes by; the scene comes from elsewhere.
 [[nodiscard]] LowLevelOptions read_low_level_options(const TomlTable& configuration);
 // The table [segmentation] alone.
 [[nodiscard]] SegmentationOptions read_segmentation_options(const TomlTable& table);

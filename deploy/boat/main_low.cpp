@@ -9,6 +9,8 @@
 #include "deploy/boat/latch_file.h"
 #include "deploy/boat/log.h"
 #include "deploy/boat/process_main.h"
+#include "deploy/boat/service_manager.h"
+#include "deploy/boat/status_line.h"
 #include "mid_level/base/clock.h"
 #include "mid_level/blackboard/segment.h"
 #include "mid_level/runtime/realtime_rights.h"
@@ -78,14 +80,18 @@ int run(const LowOptions& options) {
     devices.emplace(*board, config.devices);
   }
   Reader<ThrustStatus> thrust{board->thrust_status};
+  LowStatusLine line{*board};
+  ServiceManager manager;
   wait_for_stop([&] {
     say_what_hangs(health);
+    manager.look(health, SteadyClock{}.now(), [&] { return line.text(); });
     if (devices) {
       devices->say_news(SteadyClock{}.now());
     }
     keep(latch, thrust, begun);
     return false;
   });
+  manager.stopping();
   return kExitDone;
 }
 

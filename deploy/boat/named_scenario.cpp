@@ -53,7 +53,8 @@ Scenario with_planned_zones(Scenario scenario, const HighLevelOptions& options) 
   for (MovingObstacle& obstacle : scenario.obstacles) {
     const bool slow = std::hypot(obstacle.velocity_x_m_s, obstacle.velocity_y_m_s) <=
                       pilot.zones.slow_share * speed_m_s;
-    put_zone(obstacle.at_start, slow ? sure_zone_m(pilot.zones, speed_m_s) : 0.0);
+    put_zone(obstacle.at_start,
+             slow ? sure_zone_m(pilot.zones, pilot.response.model, speed_m_s) : 0.0);
   }
   return scenario;
 }

@@ -29,8 +29,8 @@ Voyage voyage_of(const BoatConfig& config, const Scenario* scenario) {
   voyage.start = scenario->mission.start.p_WV;
   // A real boat among simulated obstacles is where its own fixes say.
   if (config.simulation.vessel == SimulatedVessel::kThrust) {
-    voyage.origin = {scenario->environment.origin_latitude_deg,
-                     scenario->environment.origin_longitude_deg};
+    voyage.origin = GeoPoint{scenario->environment.origin_latitude_deg,
+                             scenario->environment.origin_longitude_deg};
   }
   voyage.seed = scenario->seed;
   voyage.mission = scenario->mission.definition;
@@ -46,6 +46,7 @@ LowLevelOptions low_level_options(const BoatConfig& config, const Voyage& voyage
   options.delta_t.track_oracle.sector_rad = voyage.sonar_sector_rad;
   options.delta_t.track_oracle.seed = voyage.seed;
   options.delta_t.known_scene = voyage.known_scene;
+  options.position.origin = voyage.origin;
   return options;
 }
 
@@ -68,7 +69,7 @@ DeskOptions desk_options(const BoatConfig& config, const Voyage& voyage) {
   const auto& pilot = config.high.planner.replanner.pilot;
   options.obeys_areas = pilot.has_value();
   options.tunables.speed_limit_m_s = config.speed_limit_m_s;
-  options.tunables.heading_gain_per_deg = config.high.controller.heading_gain_per_deg;
+  options.tunables.heading_gain_per_deg = config.high.controller.steering.heading_gain_per_deg;
   if (pilot) {
     options.tunables.margin_m = pilot->zones.margin_m;
     options.tunables.side_gain_m = pilot->side_gain_m;

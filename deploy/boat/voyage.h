@@ -16,8 +16,8 @@ namespace lodesman {
 
 struct Voyage {
   PositionSource position_source = PositionSource::kDeadReckoning;
-  WorldPoint start;  // where dead reckoning begins
-  GeoPoint origin;   // of the world frame
+  WorldPoint start;                // where dead reckoning begins
+  std::optional<GeoPoint> origin;  // of the world frame; empty: by the first fixes
   // The paper's tank trick: the obstacles are known, and drawn where the estimate has the boat.
   std::optional<std::vector<MovingObstacle>> known_scene;
   double sonar_sector_rad = 0.0;  // in which they are seen

@@ -45,19 +45,12 @@ Reading<PositionFix> GpsdReceiver::poll(Time now) noexcept {
         stream_.fault() == DeviceFault::kNone ? ReadStatus::kNothingNew : ReadStatus::kDisconnected,
         {}};
   }
-  if (!ready_) {
+  if (!outlet_.has_fix()) {
     read_on(now);
     keep_time(now);
     write_on(now);
   }
-  if (std::exchange(is_corrupt_, false)) {
-    return {ReadStatus::kCorrupt, {}};
-  }
-  if (!ready_) {
-    return {ReadStatus::kNothingNew, {}};
-  }
-  ++counts_.fixes;
-  return {ReadStatus::kFresh, *std::exchange(ready_, std::nullopt)};
+  return outlet_.take();
 }
 
 // Nothing of one connection is used on the next but the time of the last fix.
@@ -68,11 +61,11 @@ void GpsdReceiver::look_at_connection(Time now) noexcept {
   }
   connection_ = connection;
   chunk_size_ = chunk_at_ = line_size_ = 0;
-  line_is_cut_ = is_corrupt_ = false;
-  ready_.reset();
+  line_is_cut_ = false;
+  outlet_.restart();
   hdop_.reset();
   path_ = {};
-  receiver_ = ails_ = DeviceFault::kNone;
+  receiver_ = DeviceFault::kNone;
   heard_ = tpv_heard_ = now;
   asked_ = {};
   saying_ = connection != 0 ? kWatch : std::string_view{};
@@ -96,7 +89,7 @@ void GpsdReceiver::write_on(Time now) noexcept {
 
 void GpsdReceiver::keep_time(Time now) noexcept {
   if (now - tpv_heard_ > kSilence) {
-    ails_ = receiver_ == DeviceFault::kNone ? DeviceFault::kNoAnswer : receiver_;
+    outlet_.ails(receiver_ == DeviceFault::kNone ? DeviceFault::kNoAnswer : receiver_);
   }
   if (asked_ == Time{} && now - heard_ > kSilence) {
     asked_ = now;
@@ -124,7 +117,7 @@ bool GpsdReceiver::refill(Time now) noexcept {
 
 void GpsdReceiver::read_on(Time now) noexcept {
   left_ = kMostBytesAPoll;
-  while (!ready_ && (chunk_at_ < chunk_size_ || refill(now))) {
+  while (!outlet_.has_fix() && (chunk_at_ < chunk_size_ || refill(now))) {
     take_byte(static_cast<char>(chunk_[chunk_at_++]), now);
   }
 }
@@ -155,7 +148,7 @@ void GpsdReceiver::hear(std::string_view line, Time now) noexcept {
   const gpsd::Report report = gpsd::decoded(line);
   if (std::holds_alternative<gpsd::Broken>(report)) {
     ++counts_.broken;
-    is_corrupt_ = true;
+    outlet_.damaged();
     return;
   }
   ++counts_.reports;
@@ -198,21 +191,15 @@ void GpsdReceiver::take(const gpsd::Tpv& tpv, Time now) noexcept {
   tpv_heard_ = now;
   if (!quality_of(tpv)) {
     ++counts_.voids;
-    ails_ = DeviceFault::kNoFix;
+    outlet_.ails(DeviceFault::kNoFix);
   } else if (!tpv.utc_ns || !tpv.latitude_deg || !tpv.longitude_deg) {
     ++counts_.without_time;
   } else if (is_nowhere(*tpv.latitude_deg, *tpv.longitude_deg)) {
-    refuse(counts_.nowhere, DeviceFault::kImplausible);
+    outlet_.refuse(counts_.nowhere, DeviceFault::kImplausible);
   } else {
     hdop_ = now - hdop_heard_ > kSkyLasts ? std::nullopt : hdop_;
     give(tpv);
   }
-}
-
-void GpsdReceiver::refuse(std::uint64_t& count, DeviceFault why) noexcept {
-  ++count;
-  is_corrupt_ = true;
-  ails_ = why;
 }
 
 void GpsdReceiver::give(const gpsd::Tpv& tpv) noexcept {
@@ -233,15 +220,7 @@ void GpsdReceiver::give(const gpsd::Tpv& tpv) noexcept {
   fix.speed_m_s = tpv.speed_m_s.value_or(0.0);
   fix.has_course = tpv.course_rad.has_value();
   fix.course_rad = tpv.course_rad.value_or(0.0);
-  const bool wrong_date = !is_plausible_utc(*tpv.utc_ns);
-  counts_.wrong_dates += wrong_date ? 1U : 0U;
-  fix.utc_ns = wrong_date ? 0 : *tpv.utc_ns;
-  if (frozen_.frozen(fix)) {
-    refuse(counts_.frozen, DeviceFault::kFrozen);
-    return;
-  }
-  ails_ = wrong_date ? DeviceFault::kWrongDate : DeviceFault::kNone;
-  ready_ = fix;
+  outlet_.offer(fix, tpv.utc_ns);
 }
 
 DeviceFault GpsdReceiver::fault() const noexcept {
@@ -250,7 +229,13 @@ DeviceFault GpsdReceiver::fault() const noexcept {
       return fault;
     }
   }
-  return ails_;
+  return outlet_.fault();
+}
+
+GpsdCounts GpsdReceiver::counts() const noexcept {
+  GpsdCounts counts = counts_;
+  counts.given = outlet_.counts();
+  return counts;
 }
 
 }  // namespace lodesman

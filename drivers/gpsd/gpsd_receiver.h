@@ -20,22 +20,20 @@
 #include "drivers/gpsd/options.h"
 #include "drivers/gpsd/reports.h"
 #include "drivers/hal/devices.h"
-#include "drivers/hal/fix_check.h"
+#include "drivers/hal/fix_outlet.h"
 #include "drivers/hal/fix_stamp.h"
 #include "drivers/stream/byte_stream.h"
 
 namespace lodesman {
 
 struct GpsdCounts {
-  std::uint64_t reports = 0;       // [-] lines that are whole objects
-  std::uint64_t broken = 0;        // [-] lines that are not, or too long
-  std::uint64_t fixes = 0;         // [-] given
+  std::uint64_t reports = 0;  // [-] lines that are whole objects
+  std::uint64_t broken = 0;   // [-] lines that are not, or too long
+  FixOutletCounts given;
   std::uint64_t voids = 0;         // [-] TPV without a fix
   std::uint64_t without_time = 0;  // [-] TPV with a fix, and no time or place
   std::uint64_t repeated = 0;      // [-] of a time that was given already, or before it
   std::uint64_t nowhere = 0;       // [-] at latitude and longitude 0
-  std::uint64_t frozen = 0;        // [-]
-  std::uint64_t wrong_dates = 0;   // [-] fixes whose date cannot be; given, without UTC
   std::uint64_t of_others = 0;     // [-] TPV of another receiver
   std::uint64_t given_up = 0;      // [-] connections to a gpsd that did not answer
 };
@@ -51,7 +49,7 @@ class GpsdReceiver final : public PositionSensor {
   [[nodiscard]] Reading<PositionFix> poll(Time now) noexcept override;
   [[nodiscard]] DeviceFault fault() const noexcept override;
 
-  [[nodiscard]] const GpsdCounts& counts() const noexcept { return counts_; }
+  [[nodiscard]] GpsdCounts counts() const noexcept;
 
  private:
   using Path = std::array<char, 128>;  // of a device, cut, ended by 0
@@ -67,12 +65,11 @@ class GpsdReceiver final : public PositionSensor {
   void give(const gpsd::Tpv& tpv) noexcept;
   void keep_time(Time now) noexcept;
   [[nodiscard]] bool is_ours(std::string_view device, Time now) noexcept;
-  void refuse(std::uint64_t& count, DeviceFault why) noexcept;
 
   ByteStream& stream_;
   GpsdOptions options_;
   FixStamp stamp_;
-  FrozenPosition frozen_;
+  FixOutlet outlet_;
   std::uint64_t connection_ = 0;
 
   std::array<std::uint8_t, 512> chunk_{};
@@ -94,9 +91,6 @@ class GpsdReceiver final : public PositionSensor {
   std::optional<double> hdop_;
   Time hdop_heard_{};
 
-  std::optional<PositionFix> ready_;
-  bool is_corrupt_ = false;
-  DeviceFault ails_ = DeviceFault::kNone;
   GpsdCounts counts_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "drivers/hal/reading.h"
 #include "mid_level/base/time.h"
+#include "mid_level/messages/arming.h"
 #include "mid_level/messages/command.h"
 #include "mid_level/messages/health.h"
 #include "mid_level/messages/sonar.h"
@@ -62,6 +63,12 @@ struct BatteryReading {
 class ThrusterPair : public Device {
  public:
   [[nodiscard]] virtual CommandStatus command(ThrustCommand command, Time now) noexcept = 0;
+
+  // Before the first command: what is on record of the box, and when a program that was here before
+  // last commanded it. A driver that can find out that it is still so need not have it all proved.
+  virtual void recall(const BoxProof& /*proof*/, Time /*last_command*/) noexcept {}
+  // The proof that stands now; gone with the connection, and where anything is doubted.
+  [[nodiscard]] virtual BoxProof proof() const noexcept { return {}; }
 
   // The newest that the box has told of the battery.
   [[nodiscard]] virtual BatteryReading battery() const noexcept { return {}; }

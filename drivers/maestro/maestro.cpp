@@ -74,12 +74,17 @@ bool Maestro::follow_connection(Time now) noexcept {
     identified_ = false;
     failed_ = DeviceFault::kNone;
     start_over(now);
+    if (proof_is_on_record()) {
+      enter(State::kRecalling, now);
+    }
   }
   return true;
 }
 
 void Maestro::lose_connection(Time now) noexcept {
+  recalled_ = connection_ == 0 ? recalled_ : BoxProof{};
   connection_ = 0;
+  proof_ = {};
   static_cast<void>(stopped(now));
   const DeviceFault line = stream_.fault();
   fault_ = line == DeviceFault::kNone ? DeviceFault::kStarting : line;
@@ -91,6 +96,8 @@ void Maestro::lose_connection(Time now) noexcept {
 CommandStatus Maestro::step(Answer answer, const ThrustCommand& command, Time now) noexcept {
   switch (state_) {
     case State::kDisconnected: break;
+    case State::kRecalling: await_time_out(now); break;
+    case State::kConfirming: confirm(answer, now); break;
     case State::kIdentifying: identify(answer, now); break;
     case State::kPausing: pause(now); break;
     case State::kReadingBack: read_back(answer, now); break;
@@ -158,13 +165,7 @@ void Maestro::read_back(Answer answer, Time now) noexcept {
   } else if (!is_neutral_pulse(talk_.reply(1)) || !is_neutral_pulse(talk_.reply(2))) {
     give_up(DeviceFault::kNotNeutral, now);
   } else {
-    lost_ = 0;
-    errors_ = 0;
-    doubt_ = Doubt::kNone;
-    silence_ours_ = false;
-    errors_asked_at_ = now;
-    enter(State::kHolding, now);
-    tell(DeviceFault::kStarting);
+    begin_holding({now, stream_.power_up()}, options_.hold_neutral, now);
   }
   static_cast<void>(write({}, stopped(now), now));
 }
@@ -179,7 +180,7 @@ CommandStatus Maestro::serve(Answer answer, const ThrustCommand& command, Time n
     rest(now);
     return CommandStatus::kNotReady;
   }
-  if (state_ == State::kHolding && now - since_ >= options_.hold_neutral &&
+  if (state_ == State::kHolding && now - since_ >= hold_ &&
       (is_neutral(command) || !options_.neutral_first)) {
     enter(State::kReady, now);
     failed_ = DeviceFault::kNone;
@@ -275,6 +276,7 @@ void Maestro::enter(State state, Time now) noexcept {
 void Maestro::start_over(Time now) noexcept {
   lost_ = 0;
   heard_ = false;
+  proof_ = {};
   tell(DeviceFault::kStarting);
   static_cast<void>(stopped(now));
   enter(State::kIdentifying, now);
@@ -282,6 +284,7 @@ void Maestro::start_over(Time now) noexcept {
 
 void Maestro::give_up(DeviceFault why, Time now) noexcept {
   fault_ = failed_ = why;
+  proof_ = {};
   enter(State::kResting, now);
 }
 

@@ -43,6 +43,8 @@ class Maestro final : public ThrusterPair {
  public:
   enum class State : std::uint8_t {
     kDisconnected,  // there is no connection
+    kRecalling,     // a proof is on record: nothing is said until the box must have stopped
+    kConfirming,    // whether it did
     kIdentifying,   // asked for its errors, and for nothing else until it answers
     kPausing,       // nothing is said for the time-out and a half
     kReadingBack,   // whether it timed out, and went to neutral by itself
@@ -56,7 +58,8 @@ class Maestro final : public ThrusterPair {
     std::uint64_t lost_answers = 0;
     std::uint64_t error_reports = 0;  // answers with an error bit that we did not cause
     std::uint64_t resets = 0;
-    std::uint64_t starts = 0;  // how often it came to be ready
+    std::uint64_t starts = 0;   // how often it came to be ready
+    std::uint64_t recalls = 0;  // of them, by a proof on record
   };
 
   // Throws StartupError where the options cannot be.
@@ -64,6 +67,12 @@ class Maestro final : public ThrusterPair {
 
   [[nodiscard]] CommandStatus command(ThrustCommand command, Time now) noexcept override;
   [[nodiscard]] DeviceFault fault() const noexcept override { return fault_; }
+
+  // A proof on record stands for the first connection, if that is of the same power-up and the box
+  // tells that it stopped by itself since `last_command`. Then it is not proved again, nor neutral
+  // held for long: its pulses never ended.
+  void recall(const BoxProof& proof, Time last_command) noexcept override;
+  [[nodiscard]] BoxProof proof() const noexcept override { return proof_; }
 
   [[nodiscard]] State state() const noexcept { return state_; }
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
@@ -102,6 +111,10 @@ class Maestro final : public ThrusterPair {
                                    Time now) noexcept;
 
   // What is done in each state.
+  [[nodiscard]] bool proof_is_on_record() noexcept;
+  void await_time_out(Time now) noexcept;
+  void confirm(maestro::Answer answer, Time now) noexcept;
+  void begin_holding(const BoxProof& proof, Duration for_so_long, Time now) noexcept;
   void identify(maestro::Answer answer, Time now) noexcept;
   void pause(Time now) noexcept;
   void read_back(maestro::Answer answer, Time now) noexcept;
@@ -146,6 +159,11 @@ class Maestro final : public ThrusterPair {
   std::uint64_t connection_ = 0;
   DeviceFault fault_ = DeviceFault::kStarting;
   DeviceFault failed_ = DeviceFault::kNone;  // why the start-up was begun anew
+
+  BoxProof recalled_;    // until it was looked at
+  Time last_command_{};  // of whoever was here before
+  BoxProof proof_;       // of this connection
+  Duration hold_{};      // neutral is held for so long
 
   bool identified_ = false;         // on this connection
   bool heard_ = false;              // bytes that no Maestro would say, since the start-up began

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace lodesman {
 namespace {
@@ -68,20 +67,13 @@ Reading<PositionFix> NmeaReceiver::poll(Time now) noexcept {
         stream_.fault() == DeviceFault::kNone ? ReadStatus::kNothingNew : ReadStatus::kDisconnected,
         {}};
   }
-  if (!ready_) {
+  if (!outlet_.has_fix()) {
     read_on(now);
     if (now - heard_ > kSilence) {
-      ails_ = DeviceFault::kNoAnswer;
+      outlet_.ails(DeviceFault::kNoAnswer);
     }
   }
-  if (std::exchange(is_corrupt_, false)) {
-    return {ReadStatus::kCorrupt, {}};
-  }
-  if (!ready_) {
-    return {ReadStatus::kNothingNew, {}};
-  }
-  ++counts_.fixes;
-  return {ReadStatus::kFresh, *std::exchange(ready_, std::nullopt)};
+  return outlet_.take();
 }
 
 void NmeaReceiver::look_at_connection(Time now) noexcept {
@@ -93,9 +85,8 @@ void NmeaReceiver::look_at_connection(Time now) noexcept {
   framing_.restart();
   epochs_.restart();
   chunk_size_ = chunk_at_ = 0;
-  ready_.reset();
-  is_corrupt_ = any_heard_ = false;
-  ails_ = DeviceFault::kNone;
+  outlet_.restart();
+  any_heard_ = false;
   heard_ = now;
 }
 
@@ -111,7 +102,7 @@ bool NmeaReceiver::refill(Time now) noexcept {
 void NmeaReceiver::read_on(Time now) noexcept {
   const std::uint64_t damaged_before = damaged();
   left_ = kMostBytesAPoll;
-  while (!ready_ && (chunk_at_ < chunk_size_ || refill(now))) {
+  while (!outlet_.has_fix() && (chunk_at_ < chunk_size_ || refill(now))) {
     const std::optional<std::string_view> sentence = framing_.push(chunk_[chunk_at_++]);
     if (framing_.pending() == 1) {
       begun_ = arrived_;
@@ -120,10 +111,12 @@ void NmeaReceiver::read_on(Time now) noexcept {
       hear(*sentence, now);
     }
   }
-  if (!ready_) {
+  if (!outlet_.has_fix()) {
     take_epoch(now);
   }
-  is_corrupt_ |= any_heard_ && damaged() != damaged_before;
+  if (any_heard_ && damaged() != damaged_before) {
+    outlet_.damaged();
+  }
 }
 
 void NmeaReceiver::hear(std::string_view sentence, Time now) noexcept {
@@ -133,15 +126,20 @@ void NmeaReceiver::hear(std::string_view sentence, Time now) noexcept {
   } else if (const auto* vtg = std::get_if<nmea::Vtg>(&said)) {
     epochs_.take(*vtg, begun_);
   } else if (const auto* rmc = std::get_if<nmea::Rmc>(&said)) {
-    heard_ = now;
-    any_heard_ = true;
-    ails_ = epochs_.take(*rmc, begun_) ? ails_ : DeviceFault::kNoFix;
+    take_part(epochs_.take(*rmc, begun_), now);
   } else if (const auto* gga = std::get_if<nmea::Gga>(&said)) {
-    heard_ = now;
-    any_heard_ = true;
-    ails_ = epochs_.take(*gga, begun_) ? ails_ : DeviceFault::kNoFix;
+    take_part(epochs_.take(*gga, begun_), now);
   }
   take_epoch(now);
+}
+
+// Of a sentence that tells of a fix, and has one or not.
+void NmeaReceiver::take_part(bool has_fix, Time now) noexcept {
+  heard_ = now;
+  any_heard_ = true;
+  if (!has_fix) {
+    outlet_.ails(DeviceFault::kNoFix);
+  }
 }
 
 void NmeaReceiver::take_epoch(Time now) noexcept {
@@ -150,25 +148,19 @@ void NmeaReceiver::take_epoch(Time now) noexcept {
   }
 }
 
-void NmeaReceiver::refuse(std::uint64_t& count, DeviceFault why) noexcept {
-  ++count;
-  is_corrupt_ = true;
-  ails_ = why;
-}
-
 void NmeaReceiver::judge(const nmea::Epoch& epoch) noexcept {
   const std::optional<FixQuality> quality = quality_of(epoch);
   const std::optional<nmea::Place> by_rmc = epoch.rmc ? epoch.rmc->place : std::nullopt;
   const std::optional<nmea::Place> by_gga = epoch.gga ? epoch.gga->place : std::nullopt;
   if (!quality || (!by_rmc && !by_gga)) {
     ++counts_.voids;
-    ails_ = DeviceFault::kNoFix;
+    outlet_.ails(DeviceFault::kNoFix);
     return;
   }
   const nmea::Place place = by_gga ? *by_gga : *by_rmc;
   if (is_nowhere(place.latitude_deg, place.longitude_deg) ||
       (by_rmc && by_gga && !same_place(*by_rmc, *by_gga))) {
-    refuse(counts_.nowhere, DeviceFault::kImplausible);
+    outlet_.refuse(counts_.nowhere, DeviceFault::kImplausible);
     return;
   }
   PositionFix fix;
@@ -195,16 +187,8 @@ void NmeaReceiver::give(PositionFix fix, const nmea::Epoch& epoch) noexcept {
   fix.speed_m_s = speed_m_s.value_or(0.0);
   fix.has_course = course_rad.has_value();
   fix.course_rad = course_rad.value_or(0.0);
-  const std::int64_t utc_ns = rmc.date_ns.value_or(0) + epoch.time_of_day.count();
-  const bool wrong_date = rmc.date_ns && !is_plausible_utc(utc_ns);
-  counts_.wrong_dates += wrong_date ? 1U : 0U;
-  fix.utc_ns = rmc.date_ns && !wrong_date ? utc_ns : 0;
-  if (frozen_.frozen(fix)) {
-    refuse(counts_.frozen, DeviceFault::kFrozen);
-    return;
-  }
-  ails_ = wrong_date ? DeviceFault::kWrongDate : DeviceFault::kNone;
-  ready_ = fix;
+  outlet_.offer(
+      fix, rmc.date_ns ? std::optional{*rmc.date_ns + epoch.time_of_day.count()} : std::nullopt);
 }
 
 std::uint64_t NmeaReceiver::damaged() const noexcept {
@@ -219,12 +203,13 @@ DeviceFault NmeaReceiver::fault() const noexcept {
       return fault;
     }
   }
-  return ails_;
+  return outlet_.fault();
 }
 
 NmeaCounts NmeaReceiver::counts() const noexcept {
   NmeaCounts counts = counts_;
   counts.framing = framing_.counts();
+  counts.given = outlet_.counts();
   return counts;
 }
 

@@ -15,7 +15,7 @@
 #include <string_view>
 
 #include "drivers/hal/devices.h"
-#include "drivers/hal/fix_check.h"
+#include "drivers/hal/fix_outlet.h"
 #include "drivers/hal/fix_stamp.h"
 #include "drivers/nmea/epochs.h"
 #include "drivers/nmea/framing.h"
@@ -26,13 +26,11 @@ namespace lodesman {
 
 struct NmeaCounts {
   NmeaFramingCounts framing;
-  std::uint64_t fixes = 0;      // [-] given
+  FixOutletCounts given;
   std::uint64_t malformed = 0;  // [-] sentences whose checksum holds, that say what cannot be
   std::uint64_t voids = 0;      // [-] epochs without a fix, by the receiver's own word
   std::uint64_t nowhere = 0;    // [-] at latitude and longitude 0, or that disagree with themselves
   std::uint64_t repeated = 0;   // [-] of a time that was given already, or before it
-  std::uint64_t frozen = 0;     // [-]
-  std::uint64_t wrong_dates = 0;  // [-] fixes whose date cannot be; given, without UTC
 };
 
 class NmeaReceiver final : public PositionSensor {
@@ -52,10 +50,10 @@ class NmeaReceiver final : public PositionSensor {
   void read_on(Time now) noexcept;
   [[nodiscard]] bool refill(Time now) noexcept;
   void hear(std::string_view sentence, Time now) noexcept;
+  void take_part(bool has_fix, Time now) noexcept;
   void take_epoch(Time now) noexcept;
   void judge(const nmea::Epoch& epoch) noexcept;
   void give(PositionFix fix, const nmea::Epoch& epoch) noexcept;
-  void refuse(std::uint64_t& count, DeviceFault why) noexcept;
   [[nodiscard]] std::uint64_t damaged() const noexcept;
 
   static constexpr std::size_t kChunk = 16;  // stamps are as fine as so many bytes
@@ -65,7 +63,7 @@ class NmeaReceiver final : public PositionSensor {
   NmeaFraming framing_;
   nmea::Epochs epochs_;
   FixStamp stamp_;
-  FrozenPosition frozen_;
+  FixOutlet outlet_;
   std::uint64_t connection_ = 0;
   std::array<std::uint8_t, kChunk> chunk_{};
   std::size_t chunk_size_ = 0;
@@ -75,9 +73,6 @@ class NmeaReceiver final : public PositionSensor {
   Time begun_{};          // the first byte of the sentence under way
   Time heard_{};          // the last sentence of a fix, or the connection
   bool any_heard_ = false;
-  std::optional<PositionFix> ready_;
-  bool is_corrupt_ = false;
-  DeviceFault ails_ = DeviceFault::kNone;
   NmeaCounts counts_;
 };
 

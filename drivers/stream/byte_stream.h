@@ -45,6 +45,10 @@ class ByteStream {
   // speed, but that the connection is a new one.
   virtual void reconnect(int baud) noexcept = 0;
 
+  // Of the connection there is: a number that is another one once the device at its far end was
+  // without power, or the machine. 0 where that cannot be known.
+  [[nodiscard]] virtual std::uint64_t power_up() const noexcept { return 0; }
+
   // Why there is no connection: kNone while there is one, or none was tried yet.
   [[nodiscard]] virtual DeviceFault fault() const noexcept = 0;
 };

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "drivers/stream/power_up.h"
 #include "drivers/stream/reconnecting_line.h"
 #include "drivers/stream/serial_port.h"
 #include "drivers/stream/tcp_port.h"
@@ -18,8 +19,11 @@ OpenedPort open_port(const std::string& path, int baud) {
   }
   const bool plain = is_pty(claim.device) || !has_modem_lines(claim.descriptor.value()) ||
                      !SerialPort::knows(claim.node);
-  return plain ? TermiosPort::open(std::move(claim), baud)
-               : SerialPort::open(std::move(claim), baud);
+  const std::uint64_t power_up = power_up_of(claim.descriptor.value());
+  OpenedPort opened =
+      plain ? TermiosPort::open(std::move(claim), baud) : SerialPort::open(std::move(claim), baud);
+  opened.power_up = power_up;
+  return opened;
 }
 
 std::unique_ptr<ByteStream> make_line(const std::string& path, int baud,

@@ -32,6 +32,7 @@ class Port {
 struct OpenedPort {
   std::unique_ptr<Port> port;              // empty where it could not be opened
   DeviceFault fault = DeviceFault::kNone;  // why
+  std::uint64_t power_up = 0;              // ByteStream::power_up
 };
 
 // May block and allocate; baud: [bit/s].

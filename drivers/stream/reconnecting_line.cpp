@@ -163,6 +163,7 @@ void ReconnectingLine::connect() {
   }
   port_ = std::move(opened.port);
   ++connections_;
+  power_up_ = opened.power_up;
   opened_at_ = SteadyClock{}.now();
   if (!word_.compare_exchange_strong(absent, {Hold::kOpened, absent.baud},
                                      std::memory_order_acq_rel, std::memory_order_acquire)) {

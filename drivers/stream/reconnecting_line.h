@@ -53,6 +53,9 @@ class ReconnectingLine final : public ByteStream {
   [[nodiscard]] Received read(std::span<std::uint8_t> into, Time now) noexcept override;
   [[nodiscard]] std::size_t write(std::span<const std::uint8_t> bytes, Time now) noexcept override;
   void reconnect(int baud) noexcept override;
+  [[nodiscard]] std::uint64_t power_up() const noexcept override {
+    return is_opened() ? power_up_ : 0;
+  }
   [[nodiscard]] DeviceFault fault() const noexcept override;
 
  private:
@@ -88,6 +91,7 @@ class ReconnectingLine final : public ByteStream {
 
   std::unique_ptr<Port> port_;     // whose it is says word_
   std::uint64_t connections_ = 0;  // the helper's to count, in kAbsent
+  std::uint64_t power_up_ = 0;     // the same
 
   std::optional<Time> full_since_;  // the task's
 

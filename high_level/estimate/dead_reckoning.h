@@ -24,6 +24,13 @@ class DeadReckoning {
   // The paper writes HeadRef where a heading must stand; section 6.4 says that it is measured.
   void advance(Time now, int surge_ref, Heading heading) noexcept;
 
+  // Begins there instead, where it was then.
+  void resume(Time then, const WorldPoint& position) noexcept {
+    position_ = position;
+    advanced_to_ = then;
+    running_ = true;
+  }
+
   // A fix: the estimate moves towards it by a share in [0, 1].
   void correct(const WorldPoint& fix, double share) noexcept;
 

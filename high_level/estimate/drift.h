@@ -19,6 +19,9 @@ class DriftEstimate {
   Eigen::Vector2d follow(Time now, const WorldPoint& position,
                          const Eigen::Vector2d& through_water_m_s) noexcept;
 
+  // Begins with a drift that was learnt before.
+  void resume(const Eigen::Vector2d& drift_m_s) noexcept { drift_m_s_ = drift_m_s; }
+
   static constexpr double kDoubt_m_s = 0.03;
 
  private:

@@ -25,6 +25,22 @@ double FixGate::believable_sigma_m(double said_m) const noexcept {
   return said_m > 0.0 ? std::max(said_m, options_.sigma_least_m) : options_.sigma_unknown_m;
 }
 
+void FixGate::resume(const EstimatorMemory& memory) noexcept {
+  begin_anew();
+  begun_ = memory.fix_believed != Time{};
+  last_measured_ = memory.fix_last;
+  last_believed_ = memory.fix_believed;
+  last_sigma_m_ = memory.fix_sigma_m;
+  believed_ = memory.fixes_believed;
+}
+
+void FixGate::remember(EstimatorMemory& memory) const noexcept {
+  memory.fix_last = last_measured_;
+  memory.fix_believed = last_believed_;
+  memory.fix_sigma_m = last_sigma_m_;
+  memory.fixes_believed = believed_;
+}
+
 FixVerdict FixGate::judge(const Look& look) noexcept {
   const Duration since = look.measured - last_measured_;
   if (begun_ && since <= Duration::zero()) {

@@ -42,6 +42,9 @@ class FixGate {
  public:
   explicit FixGate(const FixGateOptions& options) noexcept : options_{options} {}
   void begin_anew() noexcept { *this = FixGate{options_}; }
+  // As one left it that was here before. Of fixes that were being refused it knows nothing.
+  void resume(const EstimatorMemory& memory) noexcept;
+  void remember(EstimatorMemory& memory) const noexcept;
 
   // A fix as it comes, before it is compared with anything.
   struct Look {

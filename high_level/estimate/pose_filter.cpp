@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "high_level/estimate/pose_filter.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,9 @@ constexpr double kSurgeAtFirst_m_s = 0.5;
 constexpr double kSwayAtFirst_m_s = 0.2;
 // A fix from a little before the oldest entry belongs to that.
 constexpr Duration kBeforeOldest = std::chrono::milliseconds{100};
+// While nobody knows whether the box still runs on: 0.15 m/s after the second that its time-out may
+// take.
+constexpr double kUnknownThrust_m2_s3 = 0.0225;
 
 // A P A'. By coefficients: Eigen's blocked product asks for memory where matrices are larger.
 [[nodiscard]] Matrix congruent(const Matrix& a, const Matrix& p) noexcept {
@@ -87,7 +91,6 @@ void PoseFilter::advance(Time now, int surge_ref, int head_ref, const Attitude& 
     set_out(now, attitude);
     return;
   }
-  const Entry& before = newest();
   Entry next;
   next.at = now;
   next.forces = model_.forces(surge_ref, head_ref);
@@ -98,10 +101,30 @@ void PoseFilter::advance(Time now, int surge_ref, int head_ref, const Attitude& 
     next.heading_rad =
         attitude.heading_rad + to_seconds(now - attitude.measured) * attitude.yaw_rate_rad_s;
   }
+  add(next);
+}
+
+void PoseFilter::coast(Time now, int surge_ref, int head_ref, bool thrust_is_known) noexcept {
+  if (count_ == 0 || now <= newest().at || now - newest().at > kLongestStep) {
+    return;
+  }
+  Entry next;
+  next.at = now;
+  next.forces = model_.forces(surge_ref, head_ref);
+  if (!thrust_is_known) {
+    next.doubt_m2_s2 = kUnknownThrust_m2_s3 * to_seconds(now - newest().at);
+  }
+  add(next);
+}
+
+// Moves on from the newest entry to the next one.
+void PoseFilter::add(Entry& next) noexcept {
+  const Entry& before = newest();
   next.mean = before.mean;
   next.covariance = before.covariance;
-  const double dt_s = to_seconds(now - before.at);
+  const double dt_s = to_seconds(next.at - before.at);
   predict(next.mean, next.covariance, next.forces, dt_s);
+  next.covariance(kSurge, kSurge) += next.doubt_m2_s2;
   odometry_.xy_m += next.mean.head<2>() - before.mean.head<2>();
   way_m_ += std::abs(before.mean[kSurge]) * dt_s;
   if (next.has_heading) {
@@ -113,6 +136,45 @@ void PoseFilter::advance(Time now, int surge_ref, int head_ref, const Attitude& 
     aligned_ = false;
     begin_anew();
   }
+}
+
+// Any numbers may stand in shared memory: what is no covariance is no memory.
+bool PoseFilter::resume(const EstimatorMemory& memory) noexcept {
+  if (!memory.has_filter || memory.fix_believed == Time{}) {
+    return false;
+  }
+  Entry first;
+  first.at = memory.at;
+  first.mean = Eigen::Map<const Vector>{memory.mean.data()};
+  first.mean[kHeading] = wrap_to_pi(first.mean[kHeading]);
+  const Matrix covariance = Eigen::Map<const Matrix>{memory.covariance.data()};
+  first.covariance = 0.5 * (covariance + covariance.transpose());
+  const Eigen::LLT<Matrix> root{first.covariance};
+  if (root.info() != Eigen::Success || !first.mean.allFinite()) {
+    return false;
+  }
+  begin_anew();
+  gate_.resume(memory);
+  heading_of_ = memory.at;
+  odometry_.xy_m = {memory.odometry_x_m, memory.odometry_y_m};
+  aligned_ = true;
+  way_m_ = memory.way_m;
+  entry(count_++) = first;
+  return true;
+}
+
+void PoseFilter::remember(EstimatorMemory& memory) const noexcept {
+  memory.has_filter = count_ > 0 && aligned_;
+  if (!memory.has_filter) {
+    return;
+  }
+  memory.at = newest().at;
+  Eigen::Map<Vector>{memory.mean.data()} = newest().mean;
+  Eigen::Map<Matrix>{memory.covariance.data()} = newest().covariance;
+  memory.odometry_x_m = odometry_.xy_m.x();
+  memory.odometry_y_m = odometry_.xy_m.y();
+  memory.way_m = way_m_;
+  gate_.remember(memory);
 }
 
 void PoseFilter::predict(Vector& mean, Matrix& covariance, const ThrustForces& forces,
@@ -163,6 +225,7 @@ void PoseFilter::carry_on(const Entry& from, Entry& to) const noexcept {
   to.mean = from.mean;
   to.covariance = from.covariance;
   predict(to.mean, to.covariance, to.forces, to_seconds(to.at - from.at));
+  to.covariance(kSurge, kSurge) += to.doubt_m2_s2;
   if (to.has_heading) {
     take_heading(to, to.mean, to.covariance);
   }

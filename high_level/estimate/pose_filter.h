@@ -58,11 +58,22 @@ class PoseFilter {
   // heading, where it is a new one. After kLongestStep without a call it begins anew.
   void advance(Time now, int surge_ref, int head_ref, const Attitude& attitude) noexcept;
   static constexpr Duration kLongestStep = std::chrono::seconds{2};
+  // The same without a heading. Where nobody knows what was applied, speed is doubted the more.
+  void coast(Time now, int surge_ref, int head_ref, bool thrust_is_known) noexcept;
+
+  // Goes on as one that died, from what it remembered; false where that is no estimate: then
+  // nothing has changed.
+  [[nodiscard]] bool resume(const EstimatorMemory& memory) noexcept;
+  void remember(EstimatorMemory& memory) const noexcept;
 
   // A position [world] that was measured then, no later than the last `advance`; sigma_m: one
   // standard deviation of each axis, 0: unknown. Says what became of it.
   FixVerdict fix(const WorldPoint& position, double sigma_m, Time measured) noexcept;
 
+  [[nodiscard]] bool has_begun() const noexcept { return count_ > 0; }
+  // Where it has begun: the time that it has been moved on to, and of its last heading.
+  [[nodiscard]] Time advanced_to() const noexcept { return newest().at; }
+  [[nodiscard]] Time heading_of() const noexcept { return heading_of_; }
   // Whether there is a pose: the last believed fix is no older than the gate's longest gap.
   [[nodiscard]] bool knows_position() const noexcept;
   // The pose as of the last `advance`; its sway, covariance and both poses included.
@@ -81,6 +92,7 @@ class PoseFilter {
     Vector mean = Vector::Zero();
     Matrix covariance = Matrix::Identity();
     ThrustForces forces;       // since the entry before
+    double doubt_m2_s2 = 0.0;  // of the surge, beside the noise
     bool has_heading = false;  // measured at this time:
     double heading_rad = 0.0;
     double yaw_rate_rad_s = 0.0;
@@ -100,6 +112,7 @@ class PoseFilter {
   void predict(Vector& mean, Matrix& covariance, const ThrustForces& forces,
                double dt_s) const noexcept;
   void take_heading(const Entry& measured, Vector& mean, Matrix& covariance) const noexcept;
+  void add(Entry& next) noexcept;
   // Both of the above, from one entry to the next.
   void carry_on(const Entry& from, Entry& to) const noexcept;
   void filter_again(std::size_t from) noexcept;

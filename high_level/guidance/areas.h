@@ -14,6 +14,12 @@ namespace lodesman {
 // Ids of areas begin here: no tracker counts so far.
 inline constexpr std::uint32_t kFirstAreaId = 1'000'000'000;
 
+// Those of a mission.
+[[nodiscard]] inline std::span<const MissionArea> areas_of(
+    const MissionDefinition& mission) noexcept {
+  return {mission.areas.data(), mission.area_count};
+}
+
 // Adds them to what is known of the water, as seen at `now` and at rest. Where there is not room
 // for all, the tracks that stand last give way, and are counted as dropped.
 void add_areas(std::span<const MissionArea> areas, Time now, Tracks& water) noexcept;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "high_level/guidance/current.h"
 #include "mid_level/geometry/obstacle_distance.h"
 
 namespace lodesman {
@@ -20,14 +19,8 @@ constexpr double kHorizonMax_s = 90.0;
 constexpr double kStep_m = 0.25;  // of the fastest approach
 constexpr int kSteps_max = 240;
 
+constexpr double kStraight = 0.01;   // slower [m/s] sideways and [rad/s] in turning is straight on
 constexpr double kWayPoint_m = 0.5;  // between points of the way that is shown
-
-// How the controller steers.
-constexpr double kArrived_m = 0.4;
-constexpr double kAim_m = 0.2;
-constexpr double kSharpTurn_rad = 0.8;
-constexpr double kSharpTurnShare = 0.3;
-constexpr double kStillWater_m_s = 0.01;  // slower is none
 
 // The manoeuvres: courses off the route, each held for a length of way, at a speed.
 constexpr std::array kOffsets_deg{15.0,  -15.0, 30.0,  -30.0, 45.0,   -45.0, 65.0,
@@ -56,16 +49,6 @@ constexpr double kToPort_s = 0.5;  // to starboard where nothing else decides
 
 [[nodiscard]] bool is_flight(const Manoeuvre& manoeuvre) noexcept {
   return std::abs(manoeuvre.speed_share) > 1.0;
-}
-
-[[nodiscard]] double heading_of(const Vec& way) noexcept { return std::atan2(way.x(), way.y()); }
-
-// The heading that leads along a way in the current, at that speed through the water.
-[[nodiscard]] double steered_for(const Vec& way, const OwnMotion& own, double speed_m_s) noexcept {
-  if (speed_m_s <= 0.0 || own.current_m_s.squaredNorm() < kStillWater_m_s * kStillWater_m_s) {
-    return heading_of(way);
-  }
-  return heading_of(velocity_for_course(way.normalized(), speed_m_s, own.current_m_s));
 }
 
 [[nodiscard]] double larger_sigma(double xx, double xy, double yy) noexcept {
@@ -107,8 +90,8 @@ const ManoeuvreChooser::Choice& ManoeuvreChooser::choose(Time now, const OwnMoti
   choice_.manoeuvre = {0.0, 0.0, speed_share_max};
   choice_.of_route = foresee(choice_.manoeuvre, kNoLimit_s, nullptr);
   choice_.foresight = choice_.of_route;
-  // With nothing in the way no other manoeuvre is there sooner.
-  if (choice_.of_route.delay_s > 0.0) {
+  // With nothing in the way no other manoeuvre is there sooner, but where it cannot turn to it.
+  if (choice_.of_route.delay_s > 0.0 || choice_.of_route.circles) {
     consider_all();
     if (choice_.foresight.run_down) {
       consider_flight();
@@ -125,13 +108,13 @@ const ManoeuvreChooser::Choice& ManoeuvreChooser::choose(Time now, const OwnMoti
 void ManoeuvreChooser::consider_all() noexcept {
   for (const double share : kSlowShares) {
     for (const double length_m : kLengths_m) {
-      consider({0.0, length_m / response_.speed_max_m_s, std::min(share, speed_share_max_)});
+      consider({0.0, length_m / response_.cruise.speed_m_s, std::min(share, speed_share_max_)});
     }
   }
   for (const double offset_deg : kOffsets_deg) {
     for (const double length_m : kLengths_m) {
       for (const double share : kSpeedShares) {
-        consider({to_rad(offset_deg), length_m / response_.speed_max_m_s,
+        consider({to_rad(offset_deg), length_m / response_.cruise.speed_m_s,
                   std::min(share, speed_share_max_)});
       }
     }
@@ -140,7 +123,7 @@ void ManoeuvreChooser::consider_all() noexcept {
 
 // Faster than the mission goes, ahead or astern.
 void ManoeuvreChooser::consider_flight() noexcept {
-  const double share = options_.flight_speed_m_s / response_.speed_max_m_s;
+  const double share = options_.flight_speed_m_s / response_.cruise.speed_m_s;
   if (share <= 1.0) {
     return;
   }
@@ -192,8 +175,9 @@ void ManoeuvreChooser::foresee_hazards(Time now, const Tracks& tracks) noexcept 
     enclose(track.shape, hazard.centre, hazard.around_m);
     fastest_m_s = std::max(fastest_m_s, hazard.velocity_m_s.norm());
   }
-  horizon_s_ = std::clamp(kHorizon_m / response_.speed_max_m_s, kHorizonMin_s, kHorizonMax_s);
-  step_s_ = std::max(kStep_m / (response_.speed_max_m_s + fastest_m_s), horizon_s_ / kSteps_max);
+  horizon_s_ = std::clamp(kHorizon_m / response_.cruise.speed_m_s, kHorizonMin_s, kHorizonMax_s);
+  step_s_ = std::max(kStep_m / (response_.cruise.speed_m_s + fastest_m_s), horizon_s_ / kSteps_max);
+  parts_ = static_cast<int>(std::ceil(step_s_ / Rollout::kPartMax_s));
 }
 
 void ManoeuvreChooser::consider(const Manoeuvre& manoeuvre) noexcept {
@@ -206,12 +190,8 @@ void ManoeuvreChooser::consider(const Manoeuvre& manoeuvre) noexcept {
 
 // One manoeuvre on its way through the future: where the vehicle is, and what it has cost.
 struct ManoeuvreChooser::Voyage {
-  OwnMotion own;
-  RoutePlace place;          // on the route
-  double steered_rad = 0.0;  // while the manoeuvre lasts
-  double t_s = 0.0;
-  double cost_s = 0.0;  // beside the time
-  bool arrived = false;
+  Rollout sailed;
+  double cost_s = 0.0;                          // beside the time
   std::array<double, kMaxObstacles> depth_m{};  // the deepest yet, of each hazard
   Foresight seen;
 };
@@ -222,33 +202,38 @@ Foresight ManoeuvreChooser::foresee(const Manoeuvre& manoeuvre, double cost_max_
   Voyage voyage = set_out(manoeuvre);
   double since_point_m = 0.0;
   if (way != nullptr) {
-    (void)way->add(voyage.own.p_W);
+    (void)way->add(voyage.sailed.p_W());
   }
-  for (int step = 0; step < kSteps_max && voyage.t_s < horizon_s_; ++step) {
-    const bool aside = voyage.t_s < manoeuvre.for_s;
-    sail_on(manoeuvre, voyage);
-    if (voyage.arrived) {
+  for (int step = 0; step < kSteps_max && voyage.sailed.after_s() < horizon_s_; ++step) {
+    const bool aside = voyage.sailed.is_aside();
+    sail_on(voyage);
+    if (voyage.sailed.has_arrived()) {
       break;
     }
     meet_hazards(voyage);
     // No cheaper any more than what is known already, however it goes on.
-    const double least_left_m = (route.end() - voyage.own.p_W).norm();
-    const double fastest_m_s = response_.speed_max_m_s + own_.current_m_s.norm();
-    if (voyage.cost_s + voyage.t_s + least_left_m / fastest_m_s > cost_max_s) {
+    const double least_left_m = (route.end() - voyage.sailed.p_W()).norm();
+    const double fastest_m_s = response_.cruise.speed_m_s + own_.current_m_s.norm();
+    if (voyage.cost_s + voyage.sailed.after_s() + least_left_m / fastest_m_s > cost_max_s) {
       voyage.seen.cost_s = kNoLimit_s;
       return voyage.seen;
     }
-    since_point_m += std::abs(voyage.own.surge_m_s) * step_s_;
+    since_point_m += std::abs(voyage.sailed.motion().velocity[0]) * step_s_;
     if (way != nullptr && aside && since_point_m >= kWayPoint_m) {
       since_point_m = 0.0;
-      (void)way->add(voyage.own.p_W);
+      (void)way->add(voyage.sailed.p_W());
     }
   }
-  const Vec back = point_at(route, voyage.place);
-  const double left_m =
-      voyage.arrived ? 0.0 : (back - voyage.own.p_W).norm() + remaining_m(route, voyage.place);
+  const Vec back = point_at(route, voyage.sailed.place());
+  const double left_m = voyage.sailed.has_arrived() ? 0.0
+                                                    : (back - voyage.sailed.p_W()).norm() +
+                                                          remaining_m(route, voyage.sailed.place());
+  voyage.seen.circles =
+      !voyage.sailed.has_arrived() && !stay_at_end_ &&
+      2.0 * route.length_m() < voyage.sailed.after_s() * response_.cruise.speed_m_s;
   voyage.seen.delay_s = voyage.cost_s;
-  voyage.seen.cost_s = voyage.cost_s + voyage.t_s + left_m / response_.speed_max_m_s;
+  voyage.seen.cost_s =
+      voyage.cost_s + voyage.sailed.after_s() + left_m / response_.cruise.speed_m_s;
   if (way != nullptr) {
     return_to_route(*way);
   }
@@ -256,69 +241,42 @@ Foresight ManoeuvreChooser::foresee(const Manoeuvre& manoeuvre, double cost_max_
 }
 
 ManoeuvreChooser::Voyage ManoeuvreChooser::set_out(const Manoeuvre& manoeuvre) const noexcept {
-  Voyage voyage;
-  voyage.own = own_;
+  Voyage voyage{{response_, *route_, own_, manoeuvre, speed_share_max_, stay_at_end_}, 0.0, {}, {}};
   voyage.seen.least_clearance_m = std::numeric_limits<double>::infinity();
-  voyage.place = nearest_place(*route_, own_.p_W, {}, std::numeric_limits<double>::infinity());
-  const Vec aim = point_ahead(*route_, voyage.place, response_.look_ahead_m) - own_.p_W;
-  const double route_rad = aim.norm() > kAim_m ? heading_of(aim) : own_.heading_rad;
-  voyage.steered_rad = steered_for(direction(route_rad + manoeuvre.offset_rad), own_,
-                                   std::abs(manoeuvre.speed_share) * response_.speed_max_m_s);
   voyage.cost_s = manoeuvre.offset_rad < 0.0 ? kToPort_s : 0.0;
   return voyage;
 }
 
-// One step of the vehicle: the manoeuvre's course while it lasts, then along the route.
-void ManoeuvreChooser::sail_on(const Manoeuvre& manoeuvre, Voyage& voyage) const noexcept {
-  const Route& route = *route_;
-  const VehicleResponse& r = response_;
-  OwnMotion& own = voyage.own;
-  const bool aside = voyage.t_s < manoeuvre.for_s;
-  voyage.place = nearest_place(route, own.p_W, voyage.place, 6.0 * r.look_ahead_m);
-  const bool at_end =
-      (route.end() - own.p_W).norm() < kArrived_m && voyage.place.leg + 2 >= route.count;
-  voyage.arrived = at_end && !stay_at_end_;
-  if (voyage.arrived) {
-    return;
+// One step of the vehicle: in parts while it turns or slips.
+void ManoeuvreChooser::sail_on(Voyage& voyage) const noexcept {
+  Rollout& sailed = voyage.sailed;
+  const BodyVelocity& velocity = sailed.motion().velocity;
+  const bool straight = std::max(std::abs(velocity[1]), std::abs(velocity[2])) < kStraight;
+  // A place that it keeps it may go back to stern first.
+  const bool keeps_place = stay_at_end_ && !sailed.is_aside() &&
+                           (route_->end() - sailed.p_W()).norm() < response_.look_ahead_m;
+  const int parts = straight ? 1 : parts_;
+  const double part_s = step_s_ / parts;
+  for (int i = 0; i < parts; ++i) {
+    sailed.sail(part_s);
+    voyage.cost_s += keeps_place ? 0.0 : kBlind_s * std::max(0.0, -velocity[0]) * part_s;
   }
-  const bool still = at_end && !aside;
-  const Vec aim = point_ahead(route, voyage.place, r.look_ahead_m) - own.p_W;
-  const double wanted_rad =
-      aside ? voyage.steered_rad : steered_for(aim, own, speed_share_max_ * r.speed_max_m_s);
-  const double deviation_rad = wrap_to_pi(wanted_rad - own.heading_rad);
-  double speed_m_s = (aside ? manoeuvre.speed_share : speed_share_max_) * r.speed_max_m_s;
-  if (still) {
-    speed_m_s = 0.0;
-  } else if (std::abs(deviation_rad) > kSharpTurn_rad && speed_m_s > 0.0) {
-    speed_m_s *= kSharpTurnShare;  // as the controller does
-  }
-  const double turn_rad_s = std::clamp(r.heading_gain_per_s * deviation_rad, -r.turn_rate_max_rad_s,
-                                       r.turn_rate_max_rad_s);
-  voyage.t_s += step_s_;
-  own.surge_m_s += (speed_m_s - own.surge_m_s) * (1.0 - std::exp(-step_s_ / r.surge_time_s));
-  voyage.cost_s += kBlind_s * std::max(0.0, -own.surge_m_s) * step_s_;
-  if (still) {
-    own.p_W += own.surge_m_s * step_s_ * direction(own.heading_rad);  // held against the current
-    return;
-  }
-  own.heading_rad += turn_rad_s * step_s_;
-  own.p_W += step_s_ * (own.surge_m_s * direction(own.heading_rad) + own.current_m_s);
 }
 
 // What the obstacles cost where the vehicle is now, wherever they are by then.
 void ManoeuvreChooser::meet_hazards(Voyage& voyage) const noexcept {
-  const double fading = std::exp(-voyage.t_s / kFading_s);
+  const double fading = std::exp(-voyage.sailed.after_s() / kFading_s);
   for (std::size_t i = 0; i < hazard_count_; ++i) {
     const Hazard& hazard = hazards_[i];
-    const double after_s = voyage.t_s + hazard.age_s;
+    const double after_s = voyage.sailed.after_s() + hazard.age_s;
     const double doubt_m = std::min(
         options_.doubt_max_m,
         options_.doubt_sigmas * (hazard.place_sigma_m + hazard.velocity_sigma_m_s * after_s));
     const double wanted_m = options_.clearance_m + doubt_m;
-    const double clearance_m = hull_clearance_m(hazard, after_s, voyage.own, wanted_m);
+    const double clearance_m = hull_clearance_m(hazard, after_s, voyage.sailed.motion(), wanted_m);
     if (clearance_m < voyage.seen.least_clearance_m) {
       voyage.seen.least_clearance_m = clearance_m;
-      voyage.seen.least_after_s = voyage.t_s;
+      voyage.seen.least_after_s = voyage.sailed.after_s();
       voyage.seen.least_track = hazard.track->id;
     }
     if (clearance_m < wanted_m) {
@@ -333,16 +291,18 @@ void ManoeuvreChooser::meet_hazards(Voyage& voyage) const noexcept {
       voyage.seen.collides = true;
       voyage.seen.run_down |= hazard.velocity_m_s.norm() > kMoving_m_s;
     }
-    voyage.cost_s += cost_of_crossing_ahead_s(hazard, after_s, voyage.own) * fading * step_s_;
+    voyage.cost_s +=
+        cost_of_crossing_ahead_s(hazard, after_s, voyage.sailed.motion()) * fading * step_s_;
   }
 }
 
 // From the hull, which two discs cover, to an obstacle; beyond wanted_m a lower bound.
 double ManoeuvreChooser::hull_clearance_m(const Hazard& hazard, double after_s,
-                                          const OwnMotion& own, double wanted_m) const noexcept {
+                                          const VehicleMotion& own,
+                                          double wanted_m) const noexcept {
   const double disc_at_m = 0.5 * response_.hull_half_length_m;
   const double disc_m = std::hypot(disc_at_m, response_.hull_half_beam_m);
-  const Vec relative = own.p_W - after_s * hazard.velocity_m_s;
+  const Vec relative = own.position.xy_m - after_s * hazard.velocity_m_s;
   const double bound_m = (relative - hazard.centre).norm() - hazard.around_m - disc_at_m - disc_m;
   if (bound_m > wanted_m) {
     return bound_m;
@@ -356,12 +316,12 @@ double ManoeuvreChooser::hull_clearance_m(const Hazard& hazard, double after_s,
 
 // A second close ahead of something that moves, in its way.
 double ManoeuvreChooser::cost_of_crossing_ahead_s(const Hazard& hazard, double after_s,
-                                                  const OwnMotion& own) noexcept {
+                                                  const VehicleMotion& own) noexcept {
   const double speed_m_s = hazard.velocity_m_s.norm();
   if (speed_m_s < kMoving_m_s) {
     return 0.0;
   }
-  const Vec from_it = own.p_W - after_s * hazard.velocity_m_s - hazard.centre;
+  const Vec from_it = own.position.xy_m - after_s * hazard.velocity_m_s - hazard.centre;
   const Vec its_way = hazard.velocity_m_s / speed_m_s;
   const double along_m = from_it.dot(its_way) - hazard.around_m;
   const double across_m = std::abs(from_it.x() * its_way.y() - from_it.y() * its_way.x());

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What to do next among moving things: a set of manoeuvres is sailed in thought, each against where
 // every obstacle will be by then, and the cheapest is taken. (Ours; the paper steers along its path
-// whatever moves.) Plain values, bounded work, no allocation; one thread.
+// whatever moves.) What sails in thought is the vehicle model under the steering that the
+// controller sails by. Plain values, bounded work, no allocation; one thread.
 #pragma once
 
 #include <array>
@@ -9,30 +10,12 @@
 #include <cstdint>
 #include <span>
 
+#include "high_level/guidance/rollout.h"
 #include "high_level/guidance/route.h"
 #include "mid_level/base/time.h"
 #include "mid_level/messages/tracks.h"
 
 namespace lodesman {
-
-// How the vehicle answers the helm, as far as looking ahead needs it.
-struct VehicleResponse {
-  double speed_max_m_s = 0.0;        // [m/s] > 0 at the mission's SurgeRef
-  double surge_time_s = 0.0;         // [s] > 0 to come within 1/e of a new speed
-  double turn_rate_max_rad_s = 0.0;  // [rad/s] > 0
-  double heading_gain_per_s = 0.0;   // [1/s] > 0 turn rate a radian of deviation
-  double hull_half_length_m = 0.0;   // [m] two discs cover the hull: see clearance
-  double hull_half_beam_m = 0.0;     // [m]
-  double look_ahead_m = 0.0;         // [m] > 0 of the line-of-sight guidance
-};
-
-struct OwnMotion {
-  Eigen::Vector2d p_W = Eigen::Vector2d::Zero();  // [m] [world]
-  double heading_rad = 0.0;
-  double surge_m_s = 0.0;                                 // through the water
-  Eigen::Vector2d current_m_s = Eigen::Vector2d::Zero();  // [world] of the water
-  double place_sigma_m = 0.0;  // of p_W against the tracks, one standard deviation
-};
 
 struct ManoeuvreOptions {
   double clearance_m = 0.0;    // [m] > 0 between hull and obstacle; less costs
@@ -44,14 +27,6 @@ struct ManoeuvreOptions {
       0.0;  // [m/s] ahead or astern, where nothing slower keeps clear; 0: none
 };
 
-// First another course for a while, then back to the route.
-struct Manoeuvre {
-  double offset_rad = 0.0;   // [rad] off the route's course, clockwise positive
-  double for_s = 0.0;        // [s] so long
-  double speed_share = 1.0;  // [-] of speed_max, as long as it lasts; in [-0.5, 1] but in flight
-  friend bool operator==(const Manoeuvre&, const Manoeuvre&) = default;
-};
-
 // What came of one, in thought.
 struct Foresight {
   double cost_s = 0.0;             // [s] time to the route's end and what else counts, as time
@@ -61,6 +36,7 @@ struct Foresight {
   std::uint32_t least_track = 0;   // [-] Track::id; 0: none
   bool collides = false;
   bool run_down = false;  // collides with something that moves: to stop would not help
+  bool circles = false;   // is not at the route's end in twice the time that its way takes
 };
 
 // An obstacle as it is foreseen: what is constant during one choice.
@@ -107,12 +83,12 @@ class ManoeuvreChooser {
   [[nodiscard]] Foresight foresee(const Manoeuvre& manoeuvre, double cost_max_s,
                                   Route* way) const noexcept;
   [[nodiscard]] Voyage set_out(const Manoeuvre& manoeuvre) const noexcept;
-  void sail_on(const Manoeuvre& manoeuvre, Voyage& voyage) const noexcept;
+  void sail_on(Voyage& voyage) const noexcept;
   void meet_hazards(Voyage& voyage) const noexcept;
-  [[nodiscard]] double hull_clearance_m(const Hazard& hazard, double after_s, const OwnMotion& own,
-                                        double wanted_m) const noexcept;
+  [[nodiscard]] double hull_clearance_m(const Hazard& hazard, double after_s,
+                                        const VehicleMotion& own, double wanted_m) const noexcept;
   [[nodiscard]] static double cost_of_crossing_ahead_s(const Hazard& hazard, double after_s,
-                                                       const OwnMotion& own) noexcept;
+                                                       const VehicleMotion& own) noexcept;
   void return_to_route(Route& way) const noexcept;
   void consider(const Manoeuvre& manoeuvre) noexcept;
   void consider_all() noexcept;
@@ -130,6 +106,7 @@ class ManoeuvreChooser {
   bool stay_at_end_ = false;
   double horizon_s_ = 0.0;
   double step_s_ = 0.0;
+  int parts_ = 1;  // of a step
   Choice choice_;
   Manoeuvre kept_;
 };

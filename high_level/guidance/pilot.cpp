@@ -53,9 +53,19 @@ void Pilot::start() noexcept {
   best_.reset();
 }
 
-void Pilot::sail_at(double speed_m_s) noexcept {
-  options_.response.speed_max_m_s = speed_m_s;
-  options_.response.look_ahead_m = look_ahead_at_rest_m_ + options_.look_ahead_s * speed_m_s;
+void Pilot::keep_sides_of(const PathRequest& last) noexcept {
+  for (std::uint32_t i = 0; i < last.zone_count; ++i) {
+    const PathZone& zone = last.zones[i];
+    if (zone.shape.id != 0 && zone.may_keep_to_port != zone.may_keep_to_starboard) {
+      sides_[side_count_++] = {zone.shape.id,
+                               zone.may_keep_to_port ? Side::kPort : Side::kStarboard};
+    }
+  }
+}
+
+void Pilot::sail_at(const Cruise& cruise) noexcept {
+  options_.response.cruise = cruise;
+  options_.response.look_ahead_m = look_ahead_at_rest_m_ + options_.look_ahead_s * cruise.speed_m_s;
   chooser_.set(options_.response, options_.manoeuvres);
 }
 
@@ -63,6 +73,7 @@ void Pilot::tune(const Tunables& tunables) noexcept {
   options_.zones.margin_m = tunables.margin_m;
   options_.side_gain_m = tunables.side_gain_m;
   options_.manoeuvres.switch_gain_s = tunables.manoeuvre_gain_s;
+  options_.response.steering.heading_gain_per_deg = tunables.heading_gain_per_deg;
   chooser_.set(options_.response, options_.manoeuvres);
 }
 
@@ -70,11 +81,15 @@ OwnMotion Pilot::when_it_takes_effect(Time now, const VehicleState& state) const
   OwnMotion own{{state.x_m, state.y_m},
                 state.heading_rad,
                 state.surge_m_s,
+                state.sway_m_s,
+                state.yaw_rate_rad_s,
                 {state.current_x_m_s, state.current_y_m_s},
                 options_.zones.own_doubt_share * largest_sigma_m(state)};
   const double ahead_s = to_seconds(now - state.valid_at + options_.latency);
-  const Vec ahead{std::sin(own.heading_rad), std::cos(own.heading_rad)};
-  own.p_W += ahead_s * (own.surge_m_s * ahead + own.current_m_s);
+  own.p_W += ahead_s * velocity_over_ground(own.heading_rad,
+                                            {own.surge_m_s, own.sway_m_s, own.yaw_rate_rad_s},
+                                            own.current_m_s);
+  own.heading_rad += ahead_s * own.yaw_rate_rad_s;
   return own;
 }
 
@@ -89,8 +104,8 @@ void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const
   own_W_ = own.p_W;
   request.space = PathSpace::kWorld;
   request.side_gain_m = options_.side_gain_m;
-  make_zones(options_.zones, tracks, now, own_W_, options_.response.speed_max_m_s, request,
-             own.place_sigma_m);
+  make_zones(options_.zones, options_.response.model, tracks, now, own_W_,
+             options_.response.cruise.speed_m_s, request, own.place_sigma_m);
   Vec start = own_W_;
   Vec end = goal.xy_m;
   escaping_ = false;
@@ -155,7 +170,7 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
   const bool aside = choice.manoeuvre.for_s > 0.0;
   const RoutePlace place = nearest_place(route_, own.p_W, {}, 1e9);
   const Vec aim = point_ahead(route_, place, options_.response.look_ahead_m) - own.p_W;
-  const double route_rad = aim.norm() > 0.2 ? std::atan2(aim.x(), aim.y()) : own.heading_rad;
+  const double route_rad = aim.norm() > kAim_m ? std::atan2(aim.x(), aim.y()) : own.heading_rad;
   plan.steer_by = aside ? SteerBy::kCourse : SteerBy::kLine;
   plan.course_rad = wrap_to_pi(route_rad + (aside ? choice.manoeuvre.offset_rad : 0.0));
   plan.speed_share = choice.manoeuvre.speed_share;

@@ -33,8 +33,11 @@ class Pilot {
 
   // A mission starts: nothing is kept to.
   void start() noexcept;
-  // Sails at that speed [m/s] > 0 through the water from here on, where nothing is in the way.
-  void sail_at(double speed_m_s) noexcept;
+  // Sails at that speed from here on, where nothing is in the way.
+  void sail_at(const Cruise& cruise) noexcept;
+  // After start(), of a mission that goes on: keeps to the sides that `last` was asked for by the
+  // pilot that was here before.
+  void keep_sides_of(const PathRequest& last) noexcept;
   // Takes on what an operator changed.
   void tune(const Tunables& tunables) noexcept;
 

@@ -36,6 +36,12 @@ void Replanner::start(Time now) noexcept {
   plan_ = Plan{};
 }
 
+void Replanner::keep_sides_of(const PathRequest& last) noexcept {
+  if (pilot_) {
+    pilot_->keep_sides_of(last);
+  }
+}
+
 bool Replanner::is_due(Time now, std::uint64_t frame) const noexcept {
   const bool due = !asked_ || now - *asked_ + kEarly_max >= options_.replan_period;
   return due && !pending_ && frame != planned_frame_;
@@ -50,9 +56,9 @@ void Replanner::ask(const Pending& pending) noexcept {
   planned_frame_ = pending.frame;
 }
 
-void Replanner::sail_at(double speed_m_s) noexcept {
+void Replanner::sail_at(const Cruise& cruise) noexcept {
   if (pilot_) {
-    pilot_->sail_at(speed_m_s);
+    pilot_->sail_at(cruise);
   }
 }
 

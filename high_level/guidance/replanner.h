@@ -42,7 +42,8 @@ class Replanner {
   // Forgets plans and goal: a mission starts.
   void start(Time now) noexcept;
   // For the pilot, where there is one.
-  void sail_at(double speed_m_s) noexcept;
+  void keep_sides_of(const PathRequest& last) noexcept;
+  void sail_at(const Cruise& cruise) noexcept;
   void tune(const Tunables& tunables) noexcept;
 
   // Steps 2-4 and 9: the request for this frame, if one is due, else nullptr. frame_captured

@@ -47,10 +47,11 @@ constexpr double kOutside_m = 0.05;  // beyond the edge, so that a search accept
 
 }  // namespace
 
-double sure_zone_m(const ZoneOptions& options, double speed_m_s) noexcept {
-  const double turning_radius_m = speed_m_s / options.turn_rate_max_rad_s;
-  return options.hull_radius_m + options.margin_m + options.margin_per_speed_s * speed_m_s +
-         options.margin_per_turning_radius * turning_radius_m;
+double sure_zone_m(const ZoneOptions& options, const VehicleModel& vehicle,
+                   double speed_m_s) noexcept {
+  return options.hull_radius_m + options.margin_m +
+         options.margin_per_stopping_way * vehicle.stopping_way_m(speed_m_s) +
+         options.margin_per_turning_way * vehicle.turning_way_m(speed_m_s);
 }
 
 void put_zone(Obstacle& shape, double clear_m) noexcept {
@@ -59,9 +60,11 @@ void put_zone(Obstacle& shape, double clear_m) noexcept {
   shape.protection_second_m = clear_m + (ellipse ? shape.semi_axis_second_m : 0.0);
 }
 
-void make_zones(const ZoneOptions& options, const Tracks& tracks, Time now, const Vec& from_W,
-                double speed_m_s, PathRequest& request, double own_sigma_m) noexcept {
+void make_zones(const ZoneOptions& options, const VehicleModel& vehicle, const Tracks& tracks,
+                Time now, const Vec& from_W, double speed_m_s, PathRequest& request,
+                double own_sigma_m) noexcept {
   request.zone_count = 0;
+  const double sure_m = sure_zone_m(options, vehicle, speed_m_s);
   for (std::uint32_t i = 0; i < std::min<std::uint32_t>(tracks.count, kMaxObstacles); ++i) {
     const Track& track = tracks.tracks[i];
     const Vec velocity =
@@ -82,7 +85,7 @@ void make_zones(const ZoneOptions& options, const Tracks& tracks, Time now, cons
         own_sigma_m * own_sigma_m;
     const double doubt_m =
         std::min(options.doubt_max_m, options.doubt_sigmas * std::sqrt(variance_m2));
-    const double clear_m = sure_zone_m(options, speed_m_s) + doubt_m;
+    const double clear_m = sure_m + doubt_m;
     put_zone(zone.shape, clear_m);
     zone.give_m = std::max(0.0, clear_m - options.hull_radius_m - options.least_margin_m);
   }

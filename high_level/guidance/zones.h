@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Zones of our own making round tracks: shape + hull + a margin that grows with the planned speed,
-// with the circle the vehicle needs to turn at it, and with doubt; and what to do when start or
-// goal lie in one. Pure functions; any thread.
+// Zones of our own making round tracks: shape + hull + a margin that grows with the ways that the
+// vehicle needs to stop and to turn at the planned speed, and with doubt; and what to do when start
+// or goal lie in one. Pure functions; any thread.
 #pragma once
 
 #include <optional>
 
+#include "high_level/estimate/vehicle_model.h"
 #include "mid_level/base/frames.h"
 #include "mid_level/messages/path.h"
 #include "mid_level/messages/tracks.h"
@@ -13,12 +14,11 @@
 namespace lodesman {
 
 struct ZoneOptions {
-  double hull_radius_m = 0.0;              // [m] half the beam
-  double margin_m = 0.0;                   // [m] at no speed and no doubt
-  double margin_per_speed_s = 0.0;         // [s] more of it a metre a second of planned speed ...
-  double margin_per_turning_radius = 0.0;  // [-] ... and for the radius of its narrowest turn at it
-  double turn_rate_max_rad_s = 1.0;        // [rad/s] > 0
-  double least_margin_m = 0.0;             // [m] in water that is too narrow for more
+  double hull_radius_m = 0.0;            // [m] half the beam
+  double margin_m = 0.0;                 // [m] at no speed and no doubt
+  double margin_per_stopping_way = 0.0;  // [-] more of it for the way to stop at that speed ...
+  double margin_per_turning_way = 0.0;   // [-] ... and for the way to turn: vehicle_model.h
+  double least_margin_m = 0.0;           // [m] in water that is too narrow for more
   double doubt_sigmas = 0.0;  // [-] standard deviations of a track's place that are added ...
   double doubt_max_m = 0.0;   // [m] ... up to this
   // Of the own place's standard deviation, what comes on top of a track's: 1 where tracks are
@@ -30,7 +30,8 @@ struct ZoneOptions {
 };
 
 // [m] from an obstacle that nothing is doubtful about to the edge of its zone.
-[[nodiscard]] double sure_zone_m(const ZoneOptions& options, double speed_m_s) noexcept;
+[[nodiscard]] double sure_zone_m(const ZoneOptions& options, const VehicleModel& vehicle,
+                                 double speed_m_s) noexcept;
 
 // Makes a shape's protection a zone that begins so far from it.
 void put_zone(Obstacle& shape, double clear_m) noexcept;
@@ -38,8 +39,8 @@ void put_zone(Obstacle& shape, double clear_m) noexcept;
 // Makes the request's zones, each placed where its obstacle will be when a vehicle at `from` with
 // that speed can be there. own_sigma_m: of the own place, as far as it counts. protection_first/
 // second_m are the full zone, give_m what of it may be given up.
-void make_zones(const ZoneOptions& options, const Tracks& tracks, Time now,
-                const Eigen::Vector2d& from_W, double speed_m_s, PathRequest& request,
+void make_zones(const ZoneOptions& options, const VehicleModel& vehicle, const Tracks& tracks,
+                Time now, const Eigen::Vector2d& from_W, double speed_m_s, PathRequest& request,
                 double own_sigma_m = 0.0) noexcept;
 
 // From a point to the nearest zone's edge, negative inside; infinity without zones.

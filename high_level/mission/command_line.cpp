@@ -43,6 +43,7 @@ constexpr std::size_t kMaxName = 64;
          (!line.contains("name") || line["name"].is_string()) &&
          (!line.contains("force") || line["force"].is_boolean()) &&
          (!line.contains("release") || line["release"].is_boolean()) &&
+         (!line.contains("override") || line["override"].is_boolean()) &&
          (!line.contains("surge") || is_reference(line["surge"])) &&
          (!line.contains("head") || is_reference(line["head"])) &&
          (!line.contains("set") ||
@@ -50,21 +51,9 @@ constexpr std::size_t kMaxName = 64;
            std::all_of(line["set"].begin(), line["set"].end(), is_number)));
 }
 
-}  // namespace
-
-CommandLine read_command_line(const std::string& text, const CommandTokens& tokens) {
-  const auto line = nlohmann::json::parse(text, nullptr, false);
-  if (!is_well_formed(line)) {
-    return {{}, refusal("a command is a line {\"command\": \"...\", \"token\": \"...\"}")};
-  }
-  if (line.contains("protocol") && line["protocol"] != kCommandProtocol) {
-    return {{}, refusal("this is protocol " + std::to_string(kCommandProtocol))};
-  }
+[[nodiscard]] CommandRequest request_of(const nlohmann::json& line, Scope scope) {
   CommandRequest request;
-  request.scope = scope_of(text_of(line, "token").value_or(""), tokens);
-  if (request.scope == Scope::kNone) {
-    return {{}, refusal("wrong or missing token")};
-  }
+  request.scope = scope;
   request.command = *text_of(line, "command");
   request.name = text_of(line, "name").value_or("").substr(0, kMaxName);
   request.mission = text_of(line, "mission");
@@ -72,12 +61,49 @@ CommandLine read_command_line(const std::string& text, const CommandTokens& toke
   request.release = line.value("release", false);
   request.surge_ref = line.value("surge", 0);
   request.head_ref = line.value("head", 0);
+  request.overrides_guard = line.value("override", false);
   if (line.contains("set")) {
     for (const auto& [key, value] : line["set"].items()) {
       request.set[key] = value.get<double>();
     }
   }
-  return {request, ""};
+  return request;
+}
+
+// Why a line may not be looked at, whoever sent it; empty where it may.
+[[nodiscard]] std::string objection_to(const nlohmann::json& line) {
+  if (!is_well_formed(line)) {
+    return "a command is a line {\"command\": \"...\", \"token\": \"...\"}";
+  }
+  if (line.contains("protocol") && line["protocol"] != kCommandProtocol) {
+    return "this is protocol " + std::to_string(kCommandProtocol);
+  }
+  return "";
+}
+
+}  // namespace
+
+CommandLine read_command_line(const std::string& text, const CommandTokens& tokens) {
+  const auto line = nlohmann::json::parse(text, nullptr, false);
+  if (const std::string objection = objection_to(line); !objection.empty()) {
+    return {{}, refusal(objection)};
+  }
+  const Scope scope = scope_of(text_of(line, "token").value_or(""), tokens);
+  if (scope == Scope::kNone) {
+    return {{}, refusal("wrong or missing token")};
+  }
+  return {request_of(line, scope), ""};
+}
+
+CommandLine read_command_line(const std::string& text, Scope proved) {
+  const auto line = nlohmann::json::parse(text, nullptr, false);
+  if (const std::string objection = objection_to(line); !objection.empty()) {
+    return {{}, refusal(objection)};
+  }
+  if (line.contains("token")) {
+    return {{}, refusal("a token is never sent where it was proved: take it for known to others")};
+  }
+  return {request_of(line, proved), ""};
 }
 
 std::string refusal(const std::string& reason) {

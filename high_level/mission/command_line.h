@@ -31,9 +31,10 @@ struct CommandRequest {
   std::optional<std::string> mission;  // the text of a mission file
   std::map<std::string, double> set;   // settings, by their keys in the configuration
   bool force = false;
-  bool release = false;        // of the emergency stop
-  std::int32_t surge_ref = 0;  // [-] [-100, 100] of the stick
-  std::int32_t head_ref = 0;   // [-] [-100, 100]
+  bool release = false;          // of the emergency stop
+  std::int32_t surge_ref = 0;    // [-] [-100, 100] of the stick
+  std::int32_t head_ref = 0;     // [-] [-100, 100]
+  bool overrides_guard = false;  // so does the stick
 };
 
 // The reply to a command, one JSON document on one line, or nothing yet: then it is asked again a
@@ -50,6 +51,9 @@ struct CommandLine {
 // What a line {"command": "...", "token": "..."} asks for. It is refused where it is no such line,
 // speaks another protocol or lacks a token of the boat's.
 [[nodiscard]] CommandLine read_command_line(const std::string& line, const CommandTokens& tokens);
+
+// The same of a line in a session that has proved its token: it shows none.
+[[nodiscard]] CommandLine read_command_line(const std::string& line, Scope proved);
 
 // {"ok": false, "error": "..."}
 [[nodiscard]] std::string refusal(const std::string& reason);

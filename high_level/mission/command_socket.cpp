@@ -7,12 +7,17 @@
 
 #include <algorithm>
 #include <list>
+#include <optional>
 #include <thread>
-#include <tuple>
 #include <utility>  // Boost 1.74 uses std::exchange without including it
+#include <vector>
 
 #include <boost/asio.hpp>
 
+#include "high_level/mission/command_session.h"
+#include "high_level/mission/handshake.h"
+#include "high_level/mission/network.h"
+#include "high_level/mission/proof_limit.h"
 #include "mid_level/base/startup_error.h"
 
 namespace lodesman {
@@ -22,38 +27,11 @@ using boost::system::error_code;
 
 namespace {
 
-constexpr std::size_t kMaxLine = 64 * 1024;  // [bytes] a longer command ends its session
-constexpr int kAcceptsPerTurn = 64;          // before the sessions have their turn
+constexpr int kAcceptsPerTurn = 64;  // before the sessions have their turn
 constexpr std::chrono::milliseconds kAnswerPeriod{5};
 constexpr std::chrono::milliseconds kIdleLookPeriod{100};
 constexpr std::chrono::milliseconds kAcceptPause{10};
 constexpr std::chrono::milliseconds kFarewellLimit{300};
-
-// In the order in which places are given up.
-enum class Standing { kStranger, kKnown, kAwaitsAnswer, kAwaitsAbort };
-
-struct Session {
-  explicit Session(tcp::socket socket_in)
-      : socket{std::move(socket_in)}, timer{socket.get_executor()} {}
-
-  void end() noexcept {
-    error_code ignored;
-    // At once: nothing of it lingers in the kernel.
-    socket.set_option(asio::socket_base::linger{true, 0}, ignored);
-    socket.close(ignored);
-    timer.cancel();
-  }
-
-  tcp::socket socket;
-  asio::steady_timer timer;
-  std::uint64_t id = 0;
-  asio::steady_timer::time_point heard = asio::steady_timer::clock_type::now();
-  Standing standing = Standing::kStranger;
-};
-
-[[nodiscard]] bool is_stranger(const std::shared_ptr<Session>& session) noexcept {
-  return session->standing == Standing::kStranger;
-}
 
 // A descriptor in reserve, given up to let an operator in when the process has no more.
 class SpareDescriptor {
@@ -75,60 +53,108 @@ class SpareDescriptor {
   int descriptor_ = -1;
 };
 
-asio::awaitable<std::string> reply_of(Session& session, const Answer& answer) {
+asio::awaitable<std::string> reply_of(CommandSession& session, const Answer& answer) {
   for (;;) {
     if (auto reply = answer(); reply) {
       co_return *std::move(reply);
     }
-    session.timer.expires_after(kAnswerPeriod);
-    co_await session.timer.async_wait(asio::use_awaitable);
+    co_await wait(session, kAnswerPeriod);
   }
-}
-
-asio::awaitable<void> send_line(Session& session, std::string line) {
-  line += '\n';
-  co_await asio::async_write(session.socket, asio::buffer(line), asio::use_awaitable);
 }
 
 }  // namespace
 
 struct CommandSocket::Impl {
-  using Sessions = std::list<std::shared_ptr<Session>>;
+  using Sessions = std::list<std::shared_ptr<CommandSession>>;
 
   Impl(const CommandSocketOptions& options_in, CommandHandler handler_in,
        CommandSocketEvents events_in)
       : options{options_in}, handler{std::move(handler_in)}, events{std::move(events_in)} {}
 
+  // On loopback the tokens of this run count too.
+  [[nodiscard]] std::vector<CommandTokens> tokens_for(const CommandSession& session) const {
+    return session.is_far() ? std::vector{options.lasting_tokens}
+                            : std::vector{options.tokens, options.lasting_tokens};
+  }
+
+  // The boat speaks first. Whether a token was proved: if not, this session ends.
+  asio::awaitable<bool> shake_hands(CommandSession& session) {
+    const BoatHandshake handshake{random_digest()};
+    co_await send_line(session, handshake.challenge());
+    std::string answer = co_await next_line(session);
+    if (session.is_far() && is_handshake_request(answer)) {  // which crossed the challenge
+      answer = co_await next_line(session);
+    }
+    if (const Duration pause = limit.pause(session.place.network, socket_time());
+        pause > Duration{}) {
+      co_await wait(session, pause);
+    }
+    BoatHandshake::Verdict verdict = handshake.judge(answer, tokens_for(session));
+    co_await send_line(session, std::move(verdict.reply));
+    if (verdict.scope == Scope::kNone) {
+      limit.failed(session.place.network, socket_time());
+      if (events.refused && session.is_far()) {
+        events.refused(session.address);
+      }
+      co_return false;
+    }
+    session.proved = {verdict.scope, {verdict.keys, SessionEnd::kBoat}};
+    session.place.standing = Standing::kKnown;
+    co_return true;
+  }
+
+  [[nodiscard]] CommandLine understood(CommandSession& session, const std::string& text) const {
+    if (session.proved) {
+      const auto opened = session.proved->lines.open(text);
+      return opened ? read_command_line(*opened, session.proved->scope)
+                    : CommandLine{{},
+                                  refusal("this is not what was sealed next: altered, "
+                                          "repeated, out of order or in the clear")};
+    }
+    CommandLine line;
+    for (const CommandTokens& tokens : tokens_for(session)) {
+      line = read_command_line(text, tokens);
+      if (line.refusal.empty()) {
+        break;
+      }
+    }
+    return line;
+  }
+
   // Line by line: a session that sends many at once waits for the others after each.
-  asio::awaitable<void> converse(Session& session) {
-    std::string buffer;
-    for (;;) {
-      const std::size_t length = co_await asio::async_read_until(
-          session.socket, asio::dynamic_buffer(buffer, kMaxLine), '\n', asio::use_awaitable);
-      session.heard = asio::steady_timer::clock_type::now();
-      CommandLine line = read_command_line(buffer.substr(0, length), options.tokens);
-      buffer.erase(0, length);
+  asio::awaitable<void> converse(CommandSession& session) {
+    bool welcome = true;
+    if (session.is_far()) {
+      welcome = co_await shake_hands(session);
+    }
+    for (bool first = !session.is_far(); welcome; first = false) {
+      const std::string text = co_await next_line(session);
+      if (first && is_handshake_request(text)) {
+        welcome = co_await shake_hands(session);
+        continue;
+      }
+      CommandLine line = understood(session, text);
       if (!line.refusal.empty()) {
         co_await send_line(session, line.refusal);
         co_return;
       }
-      session.standing =
+      session.place.standing =
           stops_the_boat(line.request.command) ? Standing::kAwaitsAbort : Standing::kAwaitsAnswer;
       line.request.session = session.id;
       const Answer answer = handler(line.request);
       std::string reply = co_await reply_of(session, answer);
-      session.standing = Standing::kKnown;
+      session.place.standing = Standing::kKnown;
       co_await send_line(session, std::move(reply));
     }
   }
 
-  asio::awaitable<void> serve(std::shared_ptr<Session> session) {
+  asio::awaitable<void> serve(std::shared_ptr<CommandSession> session) {
     try {
       co_await converse(*session);
     } catch (const std::exception&) {
       // The other side is gone, its line is too long, or it gave up its place: this session ends.
     }
-    if (events.ended && session->standing != Standing::kStranger) {
+    if (events.ended && !session->is_stranger()) {
       events.ended(session->id);
     }
     sessions.remove(session);
@@ -140,54 +166,45 @@ struct CommandSocket::Impl {
     sessions.erase(session);
   }
 
-  // Who has been silent longest: of the strangers where they fill their places, else of those that
-  // showed the token. A stranger is thus given the time to speak that it takes as many others to
-  // come. Where all wait for an answer, the last to ask: the first is about to have its own.
-  [[nodiscard]] Sessions::iterator whose_place_to_give() {
-    const auto strangers = std::count_if(sessions.begin(), sessions.end(), is_stranger);
-    const bool of_strangers = static_cast<std::size_t>(strangers) >= kMaxStrangers;
-    const auto rank = [of_strangers](const std::shared_ptr<Session>& session) {
-      const auto heard = session->heard.time_since_epoch();
-      const bool waits = session->standing >= Standing::kAwaitsAnswer;
-      return std::make_tuple(session->standing == Standing::kAwaitsAbort,
-                             is_stranger(session) != of_strangers, session->standing,
-                             waits ? -heard : heard);
-    };
-    return std::min_element(sessions.begin(), sessions.end(),
-                            [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
-  }
-
   // Whether a session gave up its place.
   [[nodiscard]] bool make_room() {
-    const auto least = whose_place_to_give();
-    if (least == sessions.end() || (*least)->standing == Standing::kAwaitsAbort) {
+    std::vector<SessionPlace> places;
+    places.reserve(sessions.size());
+    for (const auto& session : sessions) {
+      places.push_back(session->place);
+    }
+    const std::size_t least = whose_place_to_give(places);
+    if (least == places.size()) {
       return false;
     }
-    put_out(least);
+    put_out(std::next(sessions.begin(), static_cast<std::ptrdiff_t>(least)));
     return true;
   }
 
   void admit(tcp::socket socket) {
-    if (sessions.size() < kMaxSessions || make_room()) {
-      sessions.push_back(std::make_shared<Session>(std::move(socket)));
+    error_code error;
+    const tcp::endpoint client = socket.remote_endpoint(error);
+    if (!error && (sessions.size() < kMaxSessions || make_room())) {
+      const std::string address = client.address().to_string();
+      sessions.push_back(std::make_shared<CommandSession>(std::move(socket), address));
       sessions.back()->id = ++session_count;
       asio::co_spawn(context, serve(sessions.back()), asio::detached);
     }
   }
 
   // Without a descriptor left, accept() fails whether somebody waits or not.
-  [[nodiscard]] bool somebody_waits() {
+  [[nodiscard]] static bool somebody_waits(tcp::acceptor& acceptor) {
     pollfd listening{acceptor.native_handle(), POLLIN, 0};
     return poll(&listening, 1, 0) > 0;
   }
 
   // Takes in who waits. False when that fails and nothing could be done about it.
-  [[nodiscard]] bool accept_some() {
+  [[nodiscard]] bool accept_some(tcp::acceptor& acceptor) {
     for (int i = 0; i < kAcceptsPerTurn; ++i) {
       error_code error;
       tcp::socket socket{context};
       acceptor.accept(socket, error);
-      if (error == asio::error::would_block || (error && !somebody_waits())) {
+      if (error == asio::error::would_block || (error && !somebody_waits(acceptor))) {
         return true;
       }
       if (!error) {
@@ -199,13 +216,13 @@ struct CommandSocket::Impl {
     return true;
   }
 
-  asio::awaitable<void> listen() {
+  asio::awaitable<void> listen(tcp::acceptor& acceptor) {
     asio::steady_timer pause{context};
     for (;;) {
       bool ok = false;
       try {
         co_await acceptor.async_wait(tcp::acceptor::wait_read, asio::use_awaitable);
-        ok = accept_some();
+        ok = accept_some(acceptor);
       } catch (const std::exception&) {
         // Out of something: a moment later there may be more.
       }
@@ -226,13 +243,13 @@ struct CommandSocket::Impl {
   }
 
   void put_out_the_silent() {
-    const auto now = asio::steady_timer::clock_type::now();
     for (auto next = sessions.begin(); next != sessions.end();) {
       const auto session = next++;
-      const Duration limit = (*session)->standing == Standing::kStranger
-                                 ? options.stranger_idle_limit
-                                 : options.idle_limit;
-      if (now - (*session)->heard > limit) {
+      const Duration known_limit =
+          (*session)->is_far() ? options.far_idle_limit : options.idle_limit;
+      const Duration idle_limit =
+          (*session)->is_stranger() ? options.stranger_idle_limit : known_limit;
+      if (socket_time() - (*session)->place.heard > idle_limit) {
         put_out(session);
       }
     }
@@ -241,17 +258,19 @@ struct CommandSocket::Impl {
 
   [[nodiscard]] bool somebody_awaits_an_answer() const {
     return std::any_of(sessions.begin(), sessions.end(), [](const auto& session) {
-      return session->standing >= Standing::kAwaitsAnswer;
+      return session->place.standing >= Standing::kAwaitsAnswer;
     });
   }
 
   // An abort is often what ends the program: whoever gave it is told what came of it.
   asio::awaitable<void> say_farewell() {
     try {
-      acceptor.close();
-      const auto limit = asio::steady_timer::clock_type::now() + kFarewellLimit;
+      for (tcp::acceptor& acceptor : acceptors) {
+        acceptor.close();
+      }
+      const Time end = socket_time() + kFarewellLimit;
       asio::steady_timer timer{context};
-      while (somebody_awaits_an_answer() && asio::steady_timer::clock_type::now() < limit) {
+      while (somebody_awaits_an_answer() && socket_time() < end) {
         timer.expires_after(kAnswerPeriod);
         co_await timer.async_wait(asio::use_awaitable);
       }
@@ -261,25 +280,15 @@ struct CommandSocket::Impl {
     context.stop();
   }
 
-  // Throws StartupError.
-  void open() {
+  void listen_at(const tcp::endpoint& endpoint) {
     error_code error;
-    const auto address = asio::ip::make_address(options.address, error);
-    if (error) {
-      throw StartupError("command_socket.address: \"" + options.address + "\" is no IP address");
-    }
-    if (!address.is_loopback()) {
-      throw StartupError("command_socket.address: " + options.address +
-                         " is not loopback, and the token would cross the network in the clear; "
-                         "use loopback and a tunnel");
-    }
-    if (options.tokens.command.empty()) {
-      throw StartupError("command_socket.token_file: a token is required");
-    }
-    const tcp::endpoint endpoint{address, options.port};
+    tcp::acceptor& acceptor = acceptors.emplace_back(context);
     acceptor.open(endpoint.protocol(), error);
     if (!error) {
       acceptor.set_option(tcp::acceptor::reuse_address{true}, error);
+      if (endpoint.address() == asio::ip::address{asio::ip::address_v6::any()}) {
+        acceptor.set_option(asio::ip::v6_only{false}, error);  // every address of the machine
+      }
       acceptor.bind(endpoint, error);
     }
     if (!error) {
@@ -289,9 +298,36 @@ struct CommandSocket::Impl {
       acceptor.non_blocking(true, error);
     }
     if (error) {
-      throw StartupError("command_socket.port: cannot listen on port " +
-                         std::to_string(options.port) + ": " + error.message());
+      throw StartupError("command_socket.port: cannot listen on " + endpoint.address().to_string() +
+                         " port " + std::to_string(endpoint.port()) + ": " + error.message());
     }
+  }
+
+  // Throws StartupError.
+  void open() {
+    error_code error;
+    const auto reach = reach_of(options.address);
+    const auto address = asio::ip::make_address(options.address, error);
+    if (error || !reach) {
+      throw StartupError("command_socket.address: \"" + options.address + "\" is no IP address");
+    }
+    if (options.tokens.command.empty()) {
+      throw StartupError("command_socket.token_file: a token is required");
+    }
+    if (reach == Reach::kNetwork && options.lasting_tokens.command.empty()) {
+      throw StartupError("command_socket.address: " + options.address +
+                         " is not loopback, and that wants a token_file");
+    }
+    require_cryptography();
+    listen_at({address, options.port});
+    // Whoever is aboard reaches the boat without a network.
+    if (reach == Reach::kNetwork && !address.is_unspecified()) {
+      listen_at({asio::ip::address_v4::loopback(), port()});
+    }
+  }
+  [[nodiscard]] std::uint16_t port() noexcept {
+    error_code error;
+    return acceptors.front().local_endpoint(error).port();
   }
 
   // An exception that leaves a handler ends run(), not the socket.
@@ -310,8 +346,9 @@ struct CommandSocket::Impl {
   CommandSocketEvents events;
   std::uint64_t session_count = 0;
   asio::io_context context{1};
-  tcp::acceptor acceptor{context};
+  std::list<tcp::acceptor> acceptors;
   Sessions sessions;
+  ProofLimit limit;
   SpareDescriptor spare;
   std::jthread thread;
 };
@@ -320,7 +357,9 @@ CommandSocket::CommandSocket(const CommandSocketOptions& options, CommandHandler
                              CommandSocketEvents events)
     : impl_{std::make_unique<Impl>(options, std::move(handler), std::move(events))} {
   impl_->open();
-  asio::co_spawn(impl_->context, impl_->listen(), asio::detached);
+  for (tcp::acceptor& acceptor : impl_->acceptors) {
+    asio::co_spawn(impl_->context, impl_->listen(acceptor), asio::detached);
+  }
   asio::co_spawn(
       impl_->context,
       impl_->every(kIdleLookPeriod, [impl = impl_.get()] { impl->put_out_the_silent(); }),
@@ -336,9 +375,6 @@ CommandSocket::~CommandSocket() {
   impl_->thread.join();
 }
 
-std::uint16_t CommandSocket::port() const noexcept {
-  error_code error;
-  return impl_->acceptor.local_endpoint(error).port();
-}
+std::uint16_t CommandSocket::port() const noexcept { return impl_->port(); }
 
 }  // namespace lodesman

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The operator's way in: JSON lines over TCP, on loopback. It runs a thread of its own, beside the
-// tasks and never in their way, and calls its handler and the answers from there.
+// The operator's way in: JSON lines over TCP. On loopback each shows a token; from beyond it a
+// session proves one and seals its lines (handshake.h, sealed_lines.h). It runs a thread of its
+// own, beside the tasks and never in their way, and calls its handler and the answers from there.
 #pragma once
 
 #include <cstdint>
@@ -8,29 +9,29 @@
 #include <string>
 
 #include "high_level/mission/command_line.h"
+#include "high_level/mission/session_places.h"
 #include "mid_level/base/time.h"
 
 namespace lodesman {
 
 struct CommandSocketOptions {
-  std::string address;     // a loopback IP address
+  std::string address;     // IP; where it is beyond loopback, loopback is listened on too
   std::uint16_t port = 0;  // 0: one that is free
-  CommandTokens tokens;    // of which every line must carry one; that to command is not empty
+  CommandTokens tokens;    // of this run, good on loopback; that to command is not empty
   // How long a session may be silent: before its first command, and after one.
   Duration stranger_idle_limit = std::chrono::seconds{2};
   Duration idle_limit = std::chrono::seconds{60};
+  // The same beyond loopback: no order that was held up on its way for longer is obeyed.
+  Duration far_idle_limit = std::chrono::seconds{5};
+  CommandTokens lasting_tokens{};  // good everywhere; that to command is not empty beyond loopback
 };
-
-// Sessions at once, and how many of them may be strangers, who have not shown the token yet. One
-// more takes the place of the one that has been silent longest, among the strangers where they have
-// all their places; a session that waits for its abort is never put out.
-inline constexpr std::size_t kMaxSessions = 128;
-inline constexpr std::size_t kMaxStrangers = 64;
 
 // What else is called from the socket's thread; each may be empty.
 struct CommandSocketEvents {
   std::function<void(std::uint64_t session)> ended;  // one that had shown a token
   std::function<void()> look;                        // every kLookPeriod
+  // A token was not proved, from beyond loopback.
+  std::function<void(const std::string& address)> refused;
 };
 inline constexpr Duration kLookPeriod = std::chrono::milliseconds{20};
 

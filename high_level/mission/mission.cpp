@@ -2,6 +2,7 @@
 #include "high_level/mission/mission.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lodesman {
 
@@ -21,6 +22,32 @@ Ruling ruling_on(OperatorOrder order, MissionState state) noexcept {
   }
   return {OrderAnswer::kNone, state};
 }
+
+namespace {
+
+// One goal, and no link that could be lost again.
+[[nodiscard]] MissionDefinition way_to(const WorldPoint& goal,
+                                       const MissionDefinition& mission) noexcept {
+  MissionDefinition way = mission;
+  way.goal_count = 1;
+  way.goals[0] = {goal.xy_m.x(), goal.xy_m.y()};
+  way.link_lost = LinkLost::kGoOn;
+  return way;
+}
+
+// The status bears a copy of the goal: where they differ it is no goal of that mission.
+[[nodiscard]] bool makes_for_a_goal(const MissionStatus& status,
+                                    const MissionDefinition& mission) noexcept {
+  constexpr double kSame_m = 1e-6;
+  if (status.goal_index >= mission.goal_count) {
+    return false;
+  }
+  const Goal& goal = mission.goals[status.goal_index];
+  return std::abs(goal.x_m - status.goal_x_m) < kSame_m &&
+         std::abs(goal.y_m - status.goal_y_m) < kSame_m;
+}
+
+}  // namespace
 
 Mission::Mission(const MissionOptions& options) : options_{options} {}
 
@@ -51,10 +78,30 @@ bool Mission::inherit(const MissionStatus& before, std::uint64_t aborts) noexcep
   return true;
 }
 
+// A mission whose goals do not say where it was making for was on its way back.
+void Mission::take_up(const MissionStatus& before, const MissionDefinition& definition,
+                      const Succession& succession, Time now) noexcept {
+  status_ = before;
+  status_.state = succession.state;
+  status_.cause = succession.cause;
+  definition_ = definition;
+  if (before.state == MissionState::kUnderWay && !makes_for_a_goal(before, definition)) {
+    definition_ = way_to(goal(), definition);
+    status_.goal_index = 0;
+    status_.cause = succession.state == MissionState::kUnderWay ? before.cause : succession.cause;
+  }
+  status_.goal_index = std::min(status_.goal_index, definition_.goal_count - 1);
+  if (succession.state == MissionState::kAborted) {
+    status_.ended = now;
+  }
+  hold_speed();
+}
+
 void Mission::start(const MissionDefinition& definition, const WorldPoint& position,
                     Time now) noexcept {
   definition_ = definition;
-  set_out_from_ = position;
+  status_.home_x_m = position.xy_m.x();
+  status_.home_y_m = position.xy_m.y();
   status_.state = MissionState::kUnderWay;
   status_.cause = MissionCause::kOrder;
   status_.mission = definition.id;
@@ -119,13 +166,10 @@ void Mission::watch_link(const CommandLink& link, const WorldPoint& position, Ti
 
 // To where it set out from, as a mission of its own.
 void Mission::go_back(const WorldPoint& position, Time now) noexcept {
-  const WorldPoint home = set_out_from_;
-  MissionDefinition way_back = definition_;
-  way_back.goal_count = 1;
-  way_back.goals[0] = {home.xy_m.x(), home.xy_m.y()};
-  way_back.link_lost = LinkLost::kGoOn;
-  start(way_back, position, now);
-  set_out_from_ = home;
+  const WorldPoint from = home();
+  start(way_to(from, definition_), position, now);
+  status_.home_x_m = from.xy_m.x();
+  status_.home_y_m = from.xy_m.y();
   status_.cause = MissionCause::kLinkLost;
 }
 

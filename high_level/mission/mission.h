@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "high_level/mission/succession.h"
 #include "mid_level/base/frames.h"
 #include "mid_level/base/speed_table.h"
 #include "mid_level/base/time.h"
@@ -58,6 +59,10 @@ class Mission {
   // was ordered of it. An abort stands until a new start, obeyed before or not. Gives whether it
   // does.
   bool inherit(const MissionStatus& before, std::uint64_t aborts) noexcept;
+  // Where none does: goes on with that mission at the goal it was making for. Holding it holds the
+  // place that was held.
+  void take_up(const MissionStatus& before, const MissionDefinition& definition,
+               const Succession& succession, Time now) noexcept;
   // Stays at `position`, the vehicle's own, until it is told otherwise.
   void hold(const WorldPoint& position, MissionCause cause) noexcept;
   // What the mission says of a link that was open and has been silent for its time; once.
@@ -70,6 +75,8 @@ class Mission {
   [[nodiscard]] const MissionStatus& status() const noexcept { return status_; }
   // The mission that is sailed, or was last.
   [[nodiscard]] const MissionDefinition& definition() const noexcept { return definition_; }
+  // Where it set out from.
+  [[nodiscard]] WorldPoint home() const noexcept { return {{status_.home_x_m, status_.home_y_m}}; }
   // What is made for now; while holding the place held.
   [[nodiscard]] WorldPoint goal() const noexcept { return {{status_.goal_x_m, status_.goal_y_m}}; }
   [[nodiscard]] bool under_way() const noexcept { return status_.state == MissionState::kUnderWay; }
@@ -89,7 +96,6 @@ class Mission {
   double speed_limit_m_s_ = std::numeric_limits<double>::infinity();
   MissionDefinition at_hand_;
   MissionDefinition definition_;
-  WorldPoint set_out_from_;
   MissionStatus status_;
   std::optional<Time> aborted_;     // when an order last did
   std::uint64_t link_lost_of_ = 0;  // the session whose loss has been acted on

@@ -14,6 +14,7 @@
 #include <system_error>
 #include <vector>
 
+#include "high_level/mission/message_code.h"
 #include "mid_level/base/startup_error.h"
 
 namespace lodesman {
@@ -178,11 +179,9 @@ void remove_the_dead(int directory, const fs::path& path) {
   return token;
 }
 
-}  // namespace
+enum class IsOwner : std::uint8_t { kAnybody, kUserOrRoot };
 
-CommandTokens random_tokens() { return {random_token(), random_token(), random_token()}; }
-
-CommandTokens read_tokens(const fs::path& path) {
+[[nodiscard]] CommandTokens tokens_in(const fs::path& path, IsOwner owner) {
   const auto refuse = [&](const std::string& reason) {
     return StartupError(path.string(), 1, "token", reason);
   };
@@ -196,6 +195,9 @@ CommandTokens read_tokens(const fs::path& path) {
   }
   if ((status.st_mode & (S_IRWXO | S_IWGRP)) != 0) {
     throw refuse("others may read or change it; chmod 600 mends that");
+  }
+  if (owner == IsOwner::kUserOrRoot && status.st_uid != geteuid() && status.st_uid != 0) {
+    throw refuse("belongs to another user; chown root mends that");
   }
   std::array<char, 3 * (kMaxLength + 1) + 1> text{};
   const ssize_t length = read(file.get(), text.data(), text.size());
@@ -214,7 +216,55 @@ CommandTokens read_tokens(const fs::path& path) {
   return tokens;
 }
 
+[[nodiscard]] std::string text_of(const CommandTokens& tokens) {
+  return tokens.command + "\n" + tokens.abort + "\n" + tokens.view;
+}
+
+}  // namespace
+
+CommandTokens random_tokens() { return {random_token(), random_token(), random_token()}; }
+
+CommandTokens read_tokens(const fs::path& path) { return tokens_in(path, IsOwner::kAnybody); }
+
 std::string read_token(const fs::path& path) { return read_tokens(path).command; }
+
+bool is_random_token(const std::string& token) noexcept { return digest_of(token).has_value(); }
+
+CommandTokens read_lasting_tokens(const fs::path& path, Reach reach) {
+  CommandTokens tokens = tokens_in(path, IsOwner::kUserOrRoot);
+  std::size_t line = 0;
+  for (const std::string& token : {tokens.command, tokens.abort, tokens.view}) {
+    ++line;
+    if (reach == Reach::kNetwork && !token.empty() && !is_random_token(token)) {
+      throw StartupError(path.string(), line, "token",
+                         "must be 64 hexadecimal digits beyond loopback, by chance: "
+                         "lodesman token --new FILE makes some");
+    }
+  }
+  return tokens;
+}
+
+void make_token_file(const fs::path& path) {
+  const auto refuse = [&] {
+    return StartupError(path.string(), 1, "token", "cannot be made: " + reason_of(errno));
+  };
+  const CommandTokens tokens = random_tokens();
+  const Descriptor file{
+      open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR)};
+  if (!file.ok()) {
+    throw refuse();
+  }
+  const std::string text = text_of(tokens) + "\n";
+  const bool written =
+      write(file.get(), text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+      fsync(file.get()) == 0;
+  set_mode(file.get(), S_IRUSR | S_IWUSR, S_IRGRP);
+  if (!written) {
+    const StartupError why = refuse();
+    unlink(path.c_str());
+    throw why;
+  }
+}
 
 std::optional<fs::path> find_token_file(std::uint16_t port) {
   for (const fs::path& directory : token_directories()) {
@@ -229,7 +279,7 @@ std::optional<fs::path> find_token_file(std::uint16_t port) {
 }
 
 TokenFile::TokenFile(std::uint16_t port, const CommandTokens& tokens) {
-  const std::string text = tokens.command + "\n" + tokens.abort + "\n" + tokens.view;
+  const std::string text = text_of(tokens);
   std::string tried;
   const std::string name = file_name(port);
   for (const fs::path& place : token_directories()) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The credential of the command socket: a token in a file that only its owner, and the group
-// `lodesman` where there is one, can read. Whoever can read it commands the boat. Any thread.
+// The credential of the command socket: tokens in a file that only its owner, and the group
+// `lodesman` where there is one, can read. Whoever can read it commands the boat. One is written
+// for each run and found by the port; another, made once, lasts and may be carried ashore. Any
+// thread.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +12,7 @@
 #include <utility>
 
 #include "high_level/mission/command_line.h"
+#include "high_level/mission/network.h"
 
 namespace lodesman {
 
@@ -20,8 +23,18 @@ namespace lodesman {
 // abort and that to view. A second or third line that is too short for a token is none. Throws
 // StartupError.
 [[nodiscard]] CommandTokens read_tokens(const std::filesystem::path& file);
-// The first line alone: what a client shows.
+// The first line alone: what a client shows or proves.
 [[nodiscard]] std::string read_token(const std::filesystem::path& file);
+
+// The tokens that a boat goes by for as long as the file is there. Refused too where it belongs to
+// neither this user nor root; and, for a boat that is reached over a network, where a token is not
+// as random_tokens() makes it, since a listener may try guesses at leisure on what it has heard.
+[[nodiscard]] CommandTokens read_lasting_tokens(const std::filesystem::path& file, Reach reach);
+// Whether it has the form of those of random_tokens(): 64 hexadecimal digits.
+[[nodiscard]] bool is_random_token(const std::string& token) noexcept;
+// Makes such a file with new tokens: 0600, or 0640 for the group. Throws StartupError where it
+// cannot, or where there is a file already.
+void make_token_file(const std::filesystem::path& file);
 
 // The file that a running boat wrote for its command socket on this port, in a directory of this
 // user or of the system. Nothing where no program that lives has written one.

@@ -31,10 +31,12 @@ BoatStatus::BoatStatus(const Blackboard& board, bool arms_by_itself)
     : readiness_{board, arms_by_itself},
       mission_{board.mission_status},
       state_{board.vehicle_state},
+      origin_{board.world_origin},
       plan_{board.plan},
       helm_{board.helm_command},
       thrust_{board.thrust_status},
-      battery_{board.battery_status} {}
+      battery_{board.battery_status},
+      guard_{board.guard_status} {}
 
 void BoatStatus::add_to(ordered_json& reply, Time now) {
   if (const auto* mission = mission_.latest(); mission != nullptr) {
@@ -44,6 +46,7 @@ void BoatStatus::add_to(ordered_json& reply, Time now) {
     }
   }
   add_thrust(reply, now);
+  add_guard(reply, now);
   add_place(reply, now);
   add_devices(reply, now);
 }
@@ -66,6 +69,24 @@ void BoatStatus::add_thrust(ordered_json& reply, Time now) {
   }
 }
 
+void BoatStatus::add_guard(ordered_json& reply, Time now) {
+  const auto* guard = guard_.fresh(now, max_age::kGuardStatus);
+  if (guard == nullptr) {
+    return;
+  }
+  const GuardStatus& g = guard->value;
+  reply["guard"] = {{"state", to_string(g.state)},
+                    {"for_s", to_seconds(now - g.since)},
+                    {"speed_m_s", g.speed_m_s},
+                    {"trips", g.trips}};
+  if (g.trips > 0) {
+    reply["guard"]["last_trip"] = {{"reason", to_string(g.reason)},
+                                   {"ago_s", to_seconds(now - g.tripped)},
+                                   {"distance_m", g.distance_m},
+                                   {"speed_m_s", g.trip_speed_m_s}};
+  }
+}
+
 void BoatStatus::add_place(ordered_json& reply, Time now) {
   if (const auto* state = state_.latest(); state != nullptr) {
     reply["position_m"] = {state->value.x_m, state->value.y_m};
@@ -74,6 +95,11 @@ void BoatStatus::add_place(ordered_json& reply, Time now) {
     reply["position_trust"] = to_string(state->value.trust);
     reply["position_sigma_m"] =
         std::sqrt(state->value.position_xx_m2 + state->value.position_yy_m2);
+  }
+  reply["origin"] = nullptr;  // until it is known
+  if (const auto* origin = origin_.latest(); origin != nullptr) {
+    reply["origin"] = {{"deg", {origin->value.latitude_deg, origin->value.longitude_deg}},
+                       {"by", to_string(origin->value.source)}};
   }
   if (const auto* plan = plan_.latest(); plan != nullptr) {
     reply["plan"] = {{"id", plan->value.id},

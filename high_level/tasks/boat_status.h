@@ -18,16 +18,19 @@ class BoatStatus {
 
  private:
   void add_thrust(nlohmann::ordered_json& reply, Time now);
+  void add_guard(nlohmann::ordered_json& reply, Time now);
   void add_place(nlohmann::ordered_json& reply, Time now);
   void add_devices(nlohmann::ordered_json& reply, Time now);
 
   Readiness readiness_;
   Reader<MissionStatus> mission_;
   Reader<VehicleState> state_;
+  Reader<WorldOrigin> origin_;
   Reader<Plan> plan_;
   Reader<HelmCommand> helm_;
   Reader<ThrustStatus> thrust_;
   Reader<BatteryStatus> battery_;
+  Reader<GuardStatus> guard_;
 };
 
 }  // namespace lodesman

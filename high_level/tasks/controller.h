@@ -4,17 +4,19 @@
 // missing. Stepped by its runner's thread.
 #pragma once
 
+#include <optional>
+
+#include "high_level/guidance/steering.h"
 #include "high_level/guidance/waypoints.h"
 #include "mid_level/runtime/task.h"
 
 namespace lodesman {
 
 struct ControllerOptions {
-  double heading_gain_per_deg = 0.0;  // [1/deg] > 0 Kh of eq. 9
-  double waypoint_radius_m = 0.0;     // [m] > 0
-  double look_ahead_m = 0.0;          // [m] > 0 of steering by line of sight, at rest
-  double look_ahead_s = 0.0;          // [s] what of it comes with a metre a second
-  double heading_lead_s = 0.0;        // [s] it steers by the heading it will have by then
+  SteeringOptions steering;
+  double waypoint_radius_m = 0.0;  // [m] > 0
+  double look_ahead_m = 0.0;       // [m] > 0 of steering by line of sight, at rest
+  double look_ahead_s = 0.0;       // [s] what of it comes with a metre a second
 };
 
 class ControllerTask final : public Task {
@@ -33,19 +35,14 @@ class ControllerTask final : public Task {
                           HelmCommand& helm) noexcept;
   void steer_by_pilot(const Plan& plan, const VehicleState& state, const Attitude& attitude,
                       HelmCommand& helm) noexcept;
-  void steer_along(const Eigen::Vector2d& way, double speed_share, const Eigen::Vector2d& current,
-                   const Attitude& attitude, HelmCommand& helm) noexcept;
-  void keep_place(const Eigen::Vector2d& way, const Plan& plan, const Eigen::Vector2d& current,
-                  const Attitude& attitude, HelmCommand& helm) noexcept;
-  // Steers by the heading that it will have swung to.
-  void turn_to(double speed_share, Heading reference, const Attitude& attitude,
-               HelmCommand& helm) const noexcept;
-  void set_helm(double speed_share, Heading heading, Heading reference,
-                HelmCommand& helm) const noexcept;
+  [[nodiscard]] Steering steering_of(const Plan& plan, const SteeringPoint& ahead,
+                                     const VehicleState& state,
+                                     const Attitude& attitude) const noexcept;
+  static void set(const Helm& wanted, HelmCommand& helm) noexcept;
 
   ControllerOptions options_;
-  int surge_ref_ = 0;       // [-] eq. 7, of the mission ...
-  double speed_m_s_ = 0.0;  // [m/s] ... and what it holds
+  std::optional<Time> begun_;  // its first step
+  Cruise cruise_;              // of the mission
   WaypointTracker tracker_;
   Reader<Attitude> attitude_;
   Reader<VehicleState> vehicle_state_;

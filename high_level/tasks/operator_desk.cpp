@@ -50,15 +50,11 @@ using nlohmann::ordered_json;
                                                           : Scope::kCommand;
 }
 
-[[nodiscard]] std::span<const MissionArea> areas_of(const MissionDefinition& mission) noexcept {
-  return {mission.areas.data(), mission.area_count};
-}
-
 }  // namespace
 
 OperatorDesk::OperatorDesk(Blackboard& board, Role role, DeskOptions options, Now now)
     : options_{std::move(options)},
-      frame_{options_.origin},
+      origin_{board.world_origin},
       now_{std::move(now)},
       made_{now_()},
       readiness_{board, options_.arms_by_itself},
@@ -71,20 +67,36 @@ OperatorDesk::OperatorDesk(Blackboard& board, Role role, DeskOptions options, No
       mission_{board.mission_status},
       state_{board.vehicle_state},
       boat_status_{board, options_.arms_by_itself} {
+  if (options_.origin) {
+    frame_.move_to(*options_.origin);
+  }
   // Goes on counting where a program that was here before has left off.
   Reader<OperatorCommand> before{board.operator_command};
   if (const auto* last = before.latest(); last != nullptr) {
     aborts_ = last->value.aborts;
   }
+  // A commander's link is left as it was: it is lost, unless somebody takes command again.
+  if (const auto left = tunables_left(board)) {
+    options_.tunables = *left;
+  } else {
+    links_.publish({}, now_());
+  }
   options_.tunables.version = tunables_.sequence() + 1;
   tunables_.publish(options_.tunables, now_());
-  links_.publish({}, now_());
   if (options_.at_hand) {
     require_possible(*options_.at_hand);
     if (at_hand() == nullptr) {
       lay_out(*options_.at_hand);
     }
   }
+}
+
+const LocalFrame& OperatorDesk::frame() {
+  const auto* fixed = options_.origin ? nullptr : origin_.latest();
+  if (fixed != nullptr && fixed->value.source == OriginSource::kFirstFix) {
+    frame_.move_to({fixed->value.latitude_deg, fixed->value.longitude_deg});
+  }
+  return frame_;
 }
 
 void OperatorDesk::require_possible(const MissionDefinition& mission) const {
@@ -198,7 +210,7 @@ Answer OperatorDesk::order(const CommandRequest& request) {
     try {
       if (request.mission) {
         auto mission = std::make_shared<MissionDefinition>(
-            read_mission_text(*request.mission, "mission", options_.mission, &frame_));
+            read_mission_text(*request.mission, "mission", options_.mission, &frame()));
         require_possible(*mission);
         order.mission = std::move(mission);
       }

@@ -24,7 +24,7 @@ namespace lodesman {
 
 struct DeskOptions {
   MissionDefaults mission;
-  GeoPoint origin;  // of the world frame
+  std::optional<GeoPoint> origin{};  // of the world frame; empty: as the blackboard says, in time
   SpeedTable speeds = SpeedTable::proportional(0.01);
   Tunables tunables;            // as the configuration has them
   double least_margin_m = 0.0;  // [m] no margin is tuned below it
@@ -73,6 +73,8 @@ class OperatorDesk {
   [[nodiscard]] Answer order(const CommandRequest& request);
   [[nodiscard]] std::string change_commander(const CommandRequest& request);
   [[nodiscard]] std::string tune(const CommandRequest& request);
+  // The world's frame, as far as its origin is known by now.
+  [[nodiscard]] const LocalFrame& frame();
   // Every reason against a start now, in words; empty where there is none.
   [[nodiscard]] std::string objections(const MissionDefinition& mission);
   void require_possible(const MissionDefinition& mission) const;
@@ -90,6 +92,7 @@ class OperatorDesk {
 
   DeskOptions options_;
   LocalFrame frame_;
+  Reader<WorldOrigin> origin_;
   Now now_;
   Time made_;
   Commander commander_;

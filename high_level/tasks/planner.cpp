@@ -16,6 +16,12 @@ constexpr double kStay_m = 1.5;  // a place to wait at is kept within this
 [[nodiscard]] bool has_no_thrust(ThrustReason reason) noexcept {
   return reason == ThrustReason::kDeviceFailed || reason == ThrustReason::kNoThrusters;
 }
+[[nodiscard]] bool is_off(ThrustState state) noexcept {
+  return state == ThrustState::kDisarmed || state == ThrustState::kStopped;
+}
+[[nodiscard]] bool is_for_mission(const OperatorCommand& order) noexcept {
+  return order.order != OperatorOrder::kNone && order.order != OperatorOrder::kAbort;
+}
 [[nodiscard]] bool may_not_turn(ThrustReason reason) noexcept {
   return reason == ThrustReason::kDisarmed || reason == ThrustReason::kStopped;
 }
@@ -59,17 +65,77 @@ PlannerTask::PlannerTask(Blackboard& board, Role role, PlannerOptions options)
       requests_{writer_of(board, board.path_request, role)},
       plans_{writer_of(board, board.plan, role)},
       statuses_{writer_of(board, board.mission_status, role)} {
+  look_for_legacy(board);
+}
+
+void PlannerTask::look_for_legacy(Blackboard& board) {
+  Reader<MissionStatus> before{board.mission_status};
+  if (const auto* last = before.latest(); last != nullptr) {
+    legacy_.said = last->value;
+    legacy_said_ = last->stamp;
+  }
   // Orders from before this program started are not for it, but an abort stands.
   std::uint64_t aborts = 0;
   while (const auto* order = orders_.next()) {
     aborts = std::max(aborts, order->value.aborts);
+    legacy_.order_unanswered |=
+        is_for_mission(order->value) && order->sequence > legacy_.said.order;
   }
-  Reader<MissionStatus> before{board.mission_status};
-  const auto* last = before.latest();
-  (void)mission_.inherit(last != nullptr ? last->value : MissionStatus{}, aborts);
+  if (mission_.inherit(legacy_.said, aborts)) {
+    legacy_said_ = Time{};
+  }
+  Reader<MissionDefinition> definitions{board.mission_definition};
+  while (const auto* definition = definitions.next()) {
+    if (definition->value.id == legacy_.said.mission && definition->value.goal_count > 0) {
+      legacy_mission_ = std::make_unique<MissionDefinition>(definition->value);
+      legacy_.policy = definition->value.on_restart;
+      legacy_.mission_is_known = true;
+    }
+  }
+  Reader<ThrustStatus> arming{board.thrust_status};
+  Reader<ThrustApplied> applied{board.thrust_applied};
+  const auto* thrust = arming.latest();
+  const auto* told = applied.latest();
+  legacy_.thrusters_are_off = thrust != nullptr && is_off(thrust->value.state) &&
+                              (told == nullptr || told->value.reason != ThrustReason::kNoThrusters);
+  Reader<PathRequest> requests{board.path_request};
+  if (const auto* request = requests.latest(); request != nullptr) {
+    legacy_request_ = std::make_unique<PathRequest>(request->value);
+  }
+  // What a frame shows is placed by the poses of before as by its own.
+  Reader<VehicleState> poses{board.vehicle_state};
+  while (const auto* state = poses.next()) {
+    poses_.add(state->value);
+  }
+}
+
+void PlannerTask::take_up(Time now) noexcept {
+  if (legacy_said_ == Time{}) {
+    return;
+  }
+  legacy_.silence = now - legacy_said_;
+  legacy_said_ = Time{};
+  const Succession next = succession_of(legacy_);
+  if (next.state == MissionState::kIdle || !legacy_mission_) {
+    return;
+  }
+  // The place to hold is where the boat is, once that is known; until then nothing is steered by.
+  const bool to_be_held =
+      legacy_.said.state == MissionState::kUnderWay && next.state == MissionState::kHolding;
+  mission_.take_up(legacy_.said, *legacy_mission_,
+                   to_be_held ? Succession{MissionState::kUnderWay, next.cause} : next, now);
+  started_ = mission_.status().started;
+  replanner_.start(now);
+  if (legacy_request_) {
+    replanner_.keep_sides_of(*legacy_request_);
+  }
+  progress_.start(now);
+  was_absent_ = to_be_held;
+  absent_by_ = next.cause;
 }
 
 void PlannerTask::step(Time now) noexcept {
+  take_up(now);
   const auto* frame = obstacles_.latest();
   frame_is_new_ = frame != nullptr && frame->sequence != frame_sequence_;
   frame_sequence_ = frame != nullptr ? frame->sequence : 0;
@@ -87,7 +153,8 @@ void PlannerTask::step(Time now) noexcept {
     mission_.advance(position_, now);
   }
   // Places are held by the pilot alone; the paper knows nothing of it.
-  if (mission_.under_way() || (mission_.holding() && options_.replanner.pilot)) {
+  const bool sails = mission_.under_way() && !was_absent_;
+  if (sails || (mission_.holding() && options_.replanner.pilot)) {
     replan(now);
   }
   watch_progress(now);
@@ -110,10 +177,11 @@ void PlannerTask::tell(const MissionStatus& status, Time now) noexcept {
 void PlannerTask::hold_after_absence(Time now, bool estimate_is_fresh) noexcept {
   const bool absent = stepped_ != Time{} && now - stepped_ > kLongestAbsence;
   stepped_ = now;
+  absent_by_ = absent ? MissionCause::kAbsence : absent_by_;
   was_absent_ = (was_absent_ || absent) && mission_.under_way();
   if (was_absent_ && estimate_is_fresh) {
     was_absent_ = false;
-    mission_.hold(position_, MissionCause::kAbsence);
+    mission_.hold(position_, absent_by_);
   }
 }
 
@@ -148,7 +216,7 @@ void PlannerTask::sail_as_the_mission_says(Time now) noexcept {
   const MissionStatus& status = mission_.status();
   if (status.surge_ref != surge_ref_) {
     surge_ref_ = status.surge_ref;
-    replanner_.sail_at(status.speed_m_s);
+    replanner_.sail_at({status.surge_ref, status.speed_m_s});
     progress_.sail_at(status.speed_m_s);
   }
   if (status.started != started_) {
@@ -207,7 +275,7 @@ const Tracks& PlannerTask::with_areas(const Tracks& tracks, Time now) noexcept {
     return tracks;
   }
   *water_ = tracks;
-  add_areas({mission.areas.data(), mission.area_count}, now, *water_);
+  add_areas(areas_of(mission), now, *water_);
   return *water_;
 }
 

@@ -19,10 +19,9 @@ struct PlannerOptions {
 
 class PlannerTask final : public Task {
  public:
-  // Not stepped for longer than this, because its process was frozen, it does not sail on: it holds
-  // until it is told to resume, as whoever stood by has long given it up (ADR 0017).
-  static constexpr Duration kLongestAbsence = std::chrono::seconds{5};
-
+  // Not stepped for longer than kLongestAbsence, because its process was frozen, it does not sail
+  // on: it holds until it is told to resume (ADR 0017). On a blackboard that an earlier program
+  // left, it goes on with the mission as that says (ADR 0033).
   PlannerTask(Blackboard& board, Role role, PlannerOptions options);
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override {
@@ -31,6 +30,10 @@ class PlannerTask final : public Task {
   }
 
  private:
+  // What is found of the program that was here before: looked at when made, taken up with the
+  // first step.
+  void look_for_legacy(Blackboard& board);
+  void take_up(Time now) noexcept;
   void hold_after_absence(Time now, bool estimate_is_fresh) noexcept;
   void take_orders(Time now) noexcept;
   void take_tunables() noexcept;
@@ -61,7 +64,12 @@ class PlannerTask final : public Task {
   bool frame_is_new_ = false;         // at this step
   Time started_{};                    // of the mission that the replanner was told of
   MissionState told_state_ = MissionState::kIdle;
-  bool was_absent_ = false;     // under way, and its place is not known again yet
+  bool was_absent_ = false;  // under way, and its place is not known again yet
+  MissionCause absent_by_ = MissionCause::kAbsence;
+  Legacy legacy_;
+  Time legacy_said_{};  // 0: there is none to take up
+  std::unique_ptr<MissionDefinition> legacy_mission_;
+  std::unique_ptr<PathRequest> legacy_request_;
   std::uint64_t tuned_ = 0;     // Tunables::version taken on
   std::int32_t surge_ref_ = 0;  // that the replanner was told of
   std::unique_ptr<Tracks> water_ = std::make_unique<Tracks>();

@@ -181,7 +181,7 @@ std::optional<std::string> ThrustDesk::move_stick(const CommandRequest& request)
       mission->value.ended >= newest->armed) {
     return "an abort stands: arm again first";
   }
-  stick_.publish({request.surge_ref, request.head_ref}, now_());
+  stick_.publish({request.surge_ref, request.head_ref, request.overrides_guard}, now_());
   return std::nullopt;
 }
 

@@ -56,4 +56,14 @@ std::string tune_by(const std::map<std::string, double>& settings, double least_
   return {};
 }
 
+std::optional<Tunables> tunables_left(const Blackboard& board) {
+  Reader<MissionStatus> missions{board.mission_status};
+  Reader<Tunables> tunables{board.tunables};
+  const auto* mission = missions.latest();
+  const auto* last = tunables.latest();
+  const bool goes_on = mission != nullptr && (mission->value.state == MissionState::kUnderWay ||
+                                              mission->value.state == MissionState::kHolding);
+  return goes_on && last != nullptr ? std::optional{last->value} : std::nullopt;
+}
+
 }  // namespace lodesman

@@ -5,8 +5,10 @@
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
+#include "mid_level/blackboard/blackboard.h"
 #include "mid_level/messages/mission.h"
 
 namespace lodesman {
@@ -17,5 +19,8 @@ namespace lodesman {
                                   double least_margin_m, Tunables& tunables);
 
 [[nodiscard]] nlohmann::ordered_json json_of(const Tunables& tunables);
+
+// What an earlier program left that died with a mission under way or held: that goes on with it.
+[[nodiscard]] std::optional<Tunables> tunables_left(const Blackboard& board);
 
 }  // namespace lodesman

@@ -14,6 +14,10 @@ constexpr double kStandardDeviations = 3.0;
 constexpr std::uint32_t kBrightest = 255;
 // Into which a range is divided: 3 cm of 30 m.
 constexpr std::uint32_t kBins = kMaxBins;
+// The coarser of the two that a DeltaT's ranges have (bytes 85-86 and 122 of its header).
+constexpr double kStepsOfRange = 500.0;
+// Cells of one run: a return a beam, and more where a far side is filled in.
+constexpr std::size_t kMostCells = std::size_t{16} * kMaxBeams;
 
 [[nodiscard]] bool is_profile(const SonarPing& ping) noexcept {
   return ping.kind == PingKind::kProfile && ping.beams >= 1 && ping.beams <= kMaxBeams &&
@@ -30,7 +34,7 @@ ProfileDetector::ProfileDetector(const SegmentationOptions& options)
   LODESMAN_CHECK(profile.min_points >= 1 && profile.range_noise_m > 0.0);
   LODESMAN_CHECK(profile.least_incidence_rad > 0.0 &&
                  profile.least_incidence_rad < std::numbers::pi / 2.0);
-  cells_.reserve(kMaxBeams);
+  cells_.reserve(kMostCells);
 }
 
 void ProfileDetector::detect(const SonarPing& ping, SonarObstacles& out) noexcept {
@@ -42,7 +46,7 @@ void ProfileDetector::detect(const SonarPing& ping, SonarObstacles& out) noexcep
     grid_.set(ping, kBins);
     // As deep as gives an even spread the variance of the noise.
     grid_.echo_depth_m =
-        std::max(grid_.bin_depth_m, std::sqrt(12.0) * options_.profile.range_noise_m);
+        std::max(ping.range_m / kStepsOfRange, std::sqrt(12.0) * options_.profile.range_noise_m);
     for (std::uint32_t beam = 0; beam < ping.beams; ++beam) {
       strength_[beam] =
           static_cast<std::uint8_t>(std::min(ping.points[beam].intensity, kBrightest));
@@ -73,9 +77,53 @@ void ProfileDetector::take_runs(const SonarPing& ping) noexcept {
 
 void ProfileDetector::end_run() noexcept {
   if (cells_.size() >= options_.profile.min_points) {
+    fill_far_side();
     blobs_.add(grid_, cells_, {strength_, kBins, 0.0});
   }
   cells_.clear();
+}
+
+void ProfileDetector::fill_far_side() noexcept {
+  const std::size_t returns = cells_.size();
+  const PolarGrid::Place first = grid_.place(cells_.front());
+  const PolarGrid::Place last = grid_.place(cells_.back());
+  const double dx_m = last.x_m() - first.x_m();
+  const double dy_m = last.y_m() - first.y_m();
+  if (std::hypot(dx_m, dy_m) > options_.max_obstacle_length_m) {
+    return;
+  }
+  const double cross_m2 = first.x_m() * dy_m - first.y_m() * dx_m;
+  for (std::size_t i = 0; i < returns; ++i) {
+    const PolarGrid::Place here = grid_.place(cells_[i]);
+    const double chord_m = cross_m2 / (here.sine * dy_m - here.cosine * dx_m);
+    if (!fill_beam(cells_[i], chord_m)) {
+      cells_.resize(returns);
+      return;
+    }
+  }
+}
+
+// From a return to its mirror image behind the chord, as densely as a return is deep. False where
+// that is deeper than an obstacle is long, or finds no room.
+bool ProfileDetector::fill_beam(std::uint32_t cell, double chord_m) noexcept {
+  const double depth_m = 2.0 * (chord_m - grid_.place(cell).range_m);
+  if (!(depth_m > grid_.echo_depth_m)) {
+    return true;
+  }
+  if (depth_m > options_.max_obstacle_length_m) {
+    return false;
+  }
+  const auto step =
+      static_cast<std::uint32_t>(std::max(1.0, std::round(grid_.echo_depth_m / grid_.bin_depth_m)));
+  const auto deep = static_cast<std::uint32_t>(depth_m / grid_.bin_depth_m);
+  const std::uint32_t end = std::min(cell % kBins + deep, kBins - 1);
+  for (std::uint32_t bin = cell % kBins + step; bin <= end; bin += step) {
+    if (cells_.size() == kMostCells) {
+      return false;
+    }
+    cells_.push_back(cell - cell % kBins + bin);
+  }
+  return true;
 }
 
 bool ProfileDetector::is_return(const SonarPing& ping, std::uint32_t beam) const noexcept {
@@ -96,7 +144,8 @@ bool ProfileDetector::is_one_surface(const SonarPing& ping, std::uint32_t beam,
       turn_rad < incidence_rad
           ? std::min(here_m, there_m) * std::sin(turn_rad) / std::sin(incidence_rad - turn_rad)
           : 0.0;
-  return distance_m <= of_surface_m + kStandardDeviations * options_.profile.range_noise_m;
+  return distance_m <= of_surface_m + kStandardDeviations * options_.profile.range_noise_m +
+                           ping.range_m / kStepsOfRange;
 }
 
 }  // namespace lodesman

@@ -2,7 +2,10 @@
 // Obstacles from a profile: a range a beam. Returns of beams side by side belong to one surface
 // where they are no farther apart than those of a surface that is met at the least incidence, with
 // three standard deviations of their noise (the adaptive breakpoint detector of Borges and Aldon,
-// 2004, equation 5); each such run is a blob. One thread; allocates nothing once made.
+// 2004, equation 5) and a step of the head's ranges; each such run is a blob. A profile has the
+// near side alone: of a short run that bulges towards the head the far side is taken to lie as far
+// behind the line between its ends as the near side lies before it, so that a round stone is one
+// ellipse, and not one a flank. One thread; allocates nothing once made.
 #pragma once
 
 #include <vector>
@@ -22,6 +25,8 @@ class ProfileDetector {
  private:
   void take_runs(const SonarPing& ping) noexcept;
   void end_run() noexcept;
+  void fill_far_side() noexcept;
+  [[nodiscard]] bool fill_beam(std::uint32_t cell, double chord_m) noexcept;
   [[nodiscard]] bool is_return(const SonarPing& ping, std::uint32_t beam) const noexcept;
   [[nodiscard]] bool is_one_surface(const SonarPing& ping, std::uint32_t beam,
                                     std::uint32_t next) const noexcept;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -110,6 +111,22 @@ TrackOracle::TrackOracle(std::span<const MovingObstacle> world, const TrackOracl
   random_.reserve(world.size());
   for (std::size_t i = 0; i < world.size(); ++i) {
     random_.emplace_back("track oracle " + std::to_string(i + 1), options.seed);
+  }
+}
+
+// How much was known of a wall is not: what is seen of it next stands for all of it.
+void TrackOracle::resume(const Tracks& last) noexcept {
+  for (std::uint32_t i = 0; i < last.count; ++i) {
+    const Track& track = last.tracks[i];
+    if (track.id == 0 || track.id > known_.size()) {
+      continue;
+    }
+    Known& known = known_[track.id - 1];
+    known.track = track;
+    known.first_seen = track.last_seen;
+    known.from_m = std::numeric_limits<double>::infinity();
+    known.to_m = -known.from_m;
+    known.known = true;
   }
 }
 

@@ -32,6 +32,9 @@ class TrackOracle {
   // `world` must outlive this object.
   TrackOracle(std::span<const MovingObstacle> world, const TrackOracleOptions& options);
 
+  // What one that was here before knew last; it is forgotten as if it had been seen here.
+  void resume(const Tracks& last) noexcept;
+
   // One ping. `out` is what is known now, as old as the delay makes it, in the scene's order. Of
   // more than it holds the farthest are left out.
   void see(const KnownView& view, Tracks& out) noexcept;

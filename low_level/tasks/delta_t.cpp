@@ -29,6 +29,10 @@ DeltaTTask::DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaT
       device_{board, role, DeviceId::kSonar, max_age::kSonarFrame} {
   if (options_.known_scene) {
     oracle_.emplace(*options_.known_scene, options_.track_oracle);
+    Reader<Tracks> before{board.tracks};
+    if (const auto* last = before.latest(); last != nullptr) {
+      oracle_->resume(last->value);
+    }
   }
 }
 

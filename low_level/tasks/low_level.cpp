@@ -10,7 +10,7 @@ namespace lodesman {
 LowLevel::LowLevel(Blackboard& board, Role role, LowLevelDevices devices, LowLevelOptions options)
     : devices_{std::move(devices)},
       ahrs_{board, role, *devices_.heading, options.heading_turn_rad},
-      position_{board, role, devices_.position.get()},
+      position_{board, role, devices_.position.get(), options.position},
       delta_t_{board, role, *devices_.sonar, std::move(options.delta_t)},
       path_finder_{board, role},
       thruster_{board, role, devices_.thrusters.get(), options.thruster} {}

@@ -24,6 +24,7 @@ struct LowLevelDevices {
 struct LowLevelOptions {
   DeltaTOptions delta_t;
   ThrusterOptions thruster;
+  PositionTaskOptions position;
   double heading_turn_rad = 0.0;  // [rad] [-pi, pi] of the heading sensor in the vehicle, clockwise
 };
 

@@ -25,7 +25,7 @@ void ThrusterTask::step(Time now) noexcept {
   }
   look(now);
   obey_orders(now);
-  ThrustApplied applied = wanted(now);
+  ThrustApplied applied = guarded(wanted(now), now);
   const bool turns = applied.surge_ref != 0 || applied.head_ref != 0;
   if (turns && thrusters_ != nullptr && box_ != CommandStatus::kTaken) {
     // A box that was not ready, or gone, gets neutral first.
@@ -40,9 +40,12 @@ void ThrusterTask::step(Time now) noexcept {
     applied = ThrustApplied{};
     applied.reason = done;
   }
+  guard_.applied({applied.surge_ref, applied.head_ref}, now);
   status_.publish(arming_.status(), now);
+  guard_out_.publish(guard_.status(), now);
   applied_.publish(applied, now);
   device_.publish(now);
+  keep_proof(now);
   watch_battery({applied.left, applied.right}, now);
 }
 
@@ -58,6 +61,28 @@ void ThrusterTask::begin(Time now) noexcept {
   }
   if (stop_is_latched_) {
     arming_.latch(now);
+  }
+  recall_proof();
+}
+
+// Until the driver says that it goes by it, none stands: who dies before that leaves none.
+void ThrusterTask::recall_proof() noexcept {
+  const auto* proof = proof_before_.latest();
+  const auto* applied = applied_before_.latest();
+  if (proof == nullptr) {
+    return;
+  }
+  told_proof_ = proof->value;
+  if (thrusters_ != nullptr && applied != nullptr && remembers_) {
+    thrusters_->recall(proof->value, applied->stamp);
+  }
+}
+
+void ThrusterTask::keep_proof(Time now) noexcept {
+  const BoxProof proof = thrusters_ != nullptr ? thrusters_->proof() : BoxProof{};
+  if (proof.proved != told_proof_.proved || proof.power_up != told_proof_.power_up) {
+    told_proof_ = proof;
+    proof_.publish(proof, now);
   }
 }
 
@@ -84,6 +109,7 @@ void ThrusterTask::look(Time now) noexcept {
       mission != nullptr && mission->value.state == MissionState::kAborted) {
     view.aborted = mission->value.ended;
   }
+  aborted_ = view.aborted;
   view.battery_is_critical = battery_.status().level == BatteryLevel::kCritical;
   arming_.look(view, now);
 }
@@ -144,6 +170,38 @@ ThrustApplied ThrusterTask::by_stick(Time now) noexcept {
     applied.command_stamp = stick->stamp;
   }
   return applied;
+}
+
+// Below the emergency stop and an abort, above stick and mission.
+ThrustApplied ThrusterTask::guarded(const ThrustApplied& wanted, Time now) noexcept {
+  const auto* attitude = attitude_.fresh(now, max_age::kAttitude);
+  guard_.advance(now, attitude != nullptr ? &attitude->value : nullptr);
+  while (const auto* seen = obstacles_.next()) {
+    guard_.see(seen->value);
+  }
+  const auto instead =
+      guard_.judge({wanted.surge_ref, wanted.head_ref}, view_for(wanted, now), now);
+  if (!instead) {
+    return wanted;
+  }
+  ThrustApplied applied;
+  applied.reason = ThrustReason::kGuarded;
+  applied.surge_ref = instead->surge_ref;
+  applied.head_ref = instead->head_ref;
+  return applied;
+}
+
+GuardView ThrusterTask::view_for(const ThrustApplied& wanted, Time now) noexcept {
+  const ThrustStatus& arming = arming_.status();
+  const bool is_armed = arming.state == ThrustState::kArmed || arming.state == ThrustState::kManual;
+  const bool by_hand = wanted.reason == ThrustReason::kManual;
+  const auto* stick = stick_.fresh(now, max_age::kManualInput);
+  GuardView view;
+  view.may_turn = is_armed && (aborted_ == Time{} || aborted_ < arming.armed);
+  view.is_overridden = by_hand && stick != nullptr && stick->value.overrides_guard;
+  view.is_silent = !by_hand && helm_.newest_sequence() != 0 &&
+                   helm_.fresh(now, max_age::kHelmCommand) == nullptr;
+  return view;
 }
 
 // kCommanded where the box took it, else why it did not.

@@ -12,8 +12,10 @@
 #include "mid_level/blackboard/wake_edges.h"
 #include "mid_level/messages/arming.h"
 #include "mid_level/messages/command.h"
+#include "mid_level/messages/guard.h"
 #include "mid_level/messages/health.h"
 #include "mid_level/messages/mission.h"
+#include "mid_level/messages/origin.h"
 #include "mid_level/messages/path.h"
 #include "mid_level/messages/sonar.h"
 #include "mid_level/messages/tracks.h"
@@ -34,6 +36,7 @@ inline constexpr Duration kHelmCommand = milliseconds{300};
 inline constexpr Duration kManualInput = milliseconds{500};
 inline constexpr Duration kThrustStatus = milliseconds{500};
 inline constexpr Duration kThrustApplied = milliseconds{500};
+inline constexpr Duration kGuardStatus = milliseconds{500};
 inline constexpr Duration kBatteryStatus = milliseconds{3000};
 inline constexpr Duration kDeviceHealth = milliseconds{3000};
 inline constexpr Duration kNoLimit{};
@@ -43,7 +46,9 @@ struct Blackboard {
   Channel<WorldTruth, 256> world_truth;
   Channel<Attitude, 64> attitude;
   Channel<PositionFix, 16> position_fix;
+  Channel<WorldOrigin, 4> world_origin;
   Channel<VehicleState, 64> vehicle_state;
+  Channel<EstimatorMemory, 4> estimator_memory;
   Channel<SonarPing, 4> sonar_ping;
   Channel<SonarObstacles, 16> sonar_obstacles;
   Channel<Tracks, 8> tracks;
@@ -60,6 +65,8 @@ struct Blackboard {
   Channel<ManualInput, 16> manual_input;
   Channel<ThrustStatus, 64> thrust_status;
   Channel<ThrustApplied, 64> thrust_applied;
+  Channel<GuardStatus, 64> guard_status;
+  Channel<BoxProof, 4> box_proof;
   Channel<BatteryStatus, 4> battery_status;
   std::array<Channel<DeviceHealth, 4>, kDeviceCount> device_health;
   std::array<Channel<TaskHealth, 2>, kTaskCount> task_health;
@@ -97,8 +104,12 @@ void for_each_channel(Board& board, Visit visit) {
   visit(ChannelInfo{"attitude", Role::kLow, "ahrs", max_age::kAttitude}, board.attitude);
   visit(ChannelInfo{"position_fix", Role::kLow, "position", max_age::kPositionFix},
         board.position_fix);
+  visit(ChannelInfo{"world_origin", Role::kHigh, "estimator", max_age::kNoLimit},
+        board.world_origin);
   visit(ChannelInfo{"vehicle_state", Role::kHigh, "estimator", max_age::kVehicleState},
         board.vehicle_state);
+  visit(ChannelInfo{"estimator_memory", Role::kHigh, "estimator", max_age::kNoLimit},
+        board.estimator_memory);
   visit(ChannelInfo{"sonar_ping", Role::kLow, "delta_t", max_age::kSonarFrame}, board.sonar_ping);
   visit(ChannelInfo{"sonar_obstacles", Role::kLow, "delta_t", max_age::kSonarFrame},
         board.sonar_obstacles);
@@ -125,6 +136,9 @@ void for_each_channel(Board& board, Visit visit) {
         board.thrust_status);
   visit(ChannelInfo{"thrust_applied", Role::kLow, "thruster", max_age::kThrustApplied},
         board.thrust_applied);
+  visit(ChannelInfo{"guard_status", Role::kLow, "thruster", max_age::kGuardStatus},
+        board.guard_status);
+  visit(ChannelInfo{"box_proof", Role::kLow, "thruster", max_age::kNoLimit}, board.box_proof);
   visit(ChannelInfo{"battery_status", Role::kLow, "thruster", max_age::kBatteryStatus},
         board.battery_status);
   for (std::size_t i = 0; i < kDeviceCount; ++i) {

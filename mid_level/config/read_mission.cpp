@@ -29,6 +29,9 @@ using Pair = std::array<double, 2>;
   if (frame == nullptr) {
     return {};
   }
+  if (!frame->is_fixed()) {
+    table.refuse(key, "the origin of the boat's world is not fixed yet: no good fix has come");
+  }
   const WorldPoint at = frame->to_world({pair[0], pair[1]});
   if (!(at.xy_m.cwiseAbs().maxCoeff() <= kCoordinate_m.max)) {
     table.refuse(key, "is farther than 100 km from the origin of the boat's world");
@@ -105,6 +108,10 @@ void read_areas(const TomlTable& table, MissionDefinition& mission) {
   return static_cast<LinkLost>(table.choice("link_lost", {"go_on", "hold", "return", "abort"}));
 }
 
+[[nodiscard]] OnRestart read_on_restart(const TomlTable& table) {
+  return static_cast<OnRestart>(table.choice("on_restart", {"hold", "resume"}));
+}
+
 // What is asked for and not done yet is refused, rather than taken and not done.
 void require_done(const TomlTable& table, const char* key, std::string_view done) {
   if (table.has(key) && table.text(key, 64) != done) {
@@ -122,7 +129,8 @@ void refuse_undone(const TomlTable& table, const char* key) {
 
 MissionDefaults read_mission_defaults(const TomlTable& table) {
   return {table.number("goal_radius_m", kGoalRadius_m), table.number("speed_m_s", kSpeed_m_s),
-          read_link_lost(table), table.duration("link_lost_after_s", kLinkLostAfter_s)};
+          read_link_lost(table), table.duration("link_lost_after_s", kLinkLostAfter_s),
+          read_on_restart(table)};
 }
 
 MissionDefinition read_mission(const TomlTable& table, const MissionDefaults& defaults,
@@ -135,11 +143,11 @@ MissionDefinition read_mission(const TomlTable& table, const MissionDefaults& de
   mission.link_lost_after = table.has("link_lost_after_s")
                                 ? table.duration("link_lost_after_s", kLinkLostAfter_s)
                                 : defaults.link_lost_after;
+  mission.on_restart = table.has("on_restart") ? read_on_restart(table) : defaults.on_restart;
   read_areas(table, mission);
   require_done(table, "legs", "free");
   require_done(table, "blocked", "hold");
   refuse_undone(table, "battery_low");
-  refuse_undone(table, "on_restart");
   require_done(table, "colregs", "off");
   return mission;
 }

@@ -15,6 +15,7 @@ struct MissionDefaults {
   double speed_m_s = 0.0;
   LinkLost link_lost = LinkLost::kGoOn;
   Duration link_lost_after = std::chrono::seconds{5};
+  OnRestart on_restart = OnRestart::kHold;
 };
 [[nodiscard]] MissionDefaults read_mission_defaults(const TomlTable& table);
 

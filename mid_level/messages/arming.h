@@ -37,10 +37,12 @@ struct ThrustOrder {
 struct ManualInput {
   std::int32_t surge_ref = 0;  // [-] [-100, 100]
   std::int32_t head_ref = 0;   // [-] [-100, 100] positive turns right
+  bool overrides_guard = false;
 
   static constexpr auto fields() noexcept {
     return std::tuple{field("surge_ref", &ManualInput::surge_ref).within(-100, 100),
-                      field("head_ref", &ManualInput::head_ref).within(-100, 100)};
+                      field("head_ref", &ManualInput::head_ref).within(-100, 100),
+                      field("overrides_guard", &ManualInput::overrides_guard)};
   }
 };
 
@@ -128,6 +130,17 @@ struct ThrustStatus {
                       field("answer", &S::answer),
                       field("refused_for", &S::refused_for),
                       field("stops", &S::stops)};
+  }
+};
+
+// That the thruster box was seen to stop by itself. Written by the thruster task when it changes;
+// read by a thruster task that comes after, and by displays.
+struct BoxProof {
+  Time proved{};               // [ns] when; 0: no proof stands
+  std::uint64_t power_up = 0;  // [-] of the box, as the system knows it; 0: it does not
+
+  static constexpr auto fields() noexcept {
+    return std::tuple{field("proved", &BoxProof::proved), field("power_up", &BoxProof::power_up)};
   }
 };
 

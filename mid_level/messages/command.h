@@ -59,9 +59,10 @@ enum class MissionCause : std::uint8_t {
   kOrder,     // an operator's word, or the voyage itself
   kAbsence,   // its process was frozen
   kLinkLost,  // the commander's heartbeat was lost
+  kRestart,   // its process was started anew: what the mission says of that was done
 };
 [[nodiscard]] constexpr auto enumerators(MissionCause) noexcept {
-  return enumerators_to<MissionCause::kLinkLost>("order", "absence", "link_lost");
+  return enumerators_to<MissionCause::kRestart>("order", "absence", "link_lost", "restart");
 }
 
 // Why no way is made over ground though it is wanted.
@@ -94,6 +95,8 @@ struct MissionStatus {
   std::uint32_t goal_index = 0;  // [-] of the goal made for: mission waypoints first, goal last
   double goal_x_m = 0.0;         // [m] [world] that goal; while holding the place held
   double goal_y_m = 0.0;         // [m] [world]
+  double home_x_m = 0.0;         // [m] [world] where it set out from
+  double home_y_m = 0.0;         // [m] [world]
   std::uint64_t aborts = 0;      // [-] obeyed so far: OperatorCommand::aborts of the last one
   std::uint64_t order = 0;       // [-] sequence of the last order answered, aborts apart
   OrderAnswer answer = OrderAnswer::kNone;  // to that order
@@ -113,6 +116,8 @@ struct MissionStatus {
                       field("goal_index", &M::goal_index),
                       field("goal_x_m", &M::goal_x_m),
                       field("goal_y_m", &M::goal_y_m),
+                      field("home_x_m", &M::home_x_m),
+                      field("home_y_m", &M::home_y_m),
                       field("aborts", &M::aborts),
                       field("order", &M::order),
                       field("answer", &M::answer),
@@ -295,11 +300,12 @@ enum class ThrustReason : std::uint8_t {
   kStopped,       // the emergency stop: neutral
   kManual,        // the thrusters run as the stick says
   kStickSilent,   // the stick has fallen silent: neutral
+  kGuarded,       // the guard brakes, or keeps neutral, whatever is asked for
 };
 [[nodiscard]] constexpr auto enumerators(ThrustReason) noexcept {
-  return enumerators_to<ThrustReason::kStickSilent>("commanded", "no_command", "stale_command",
-                                                    "device_failed", "no_thrusters", "disarmed",
-                                                    "stopped", "manual", "stick_silent");
+  return enumerators_to<ThrustReason::kGuarded>("commanded", "no_command", "stale_command",
+                                                "device_failed", "no_thrusters", "disarmed",
+                                                "stopped", "manual", "stick_silent", "guarded");
 }
 
 // Written by the thruster task at 20 Hz, after the box took the command; where it took none, all is

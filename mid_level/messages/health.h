@@ -31,6 +31,8 @@ struct TaskHealth {
   // that; the last also counts what was later still.
   std::array<std::uint64_t, kLateBuckets> late{};       // [-]
   std::array<std::uint64_t, kLateBuckets> wake_late{};  // [-] woken ones, after the newest ring
+  // All steps, by how long they took, in the same powers of two.
+  std::array<std::uint64_t, kLateBuckets> took{};  // [-]
 
   static constexpr auto fields() noexcept {
     using T = TaskHealth;
@@ -46,7 +48,8 @@ struct TaskHealth {
                       measured_field("over_budget", &T::over_budget),
                       measured_field("past_deadline", &T::past_deadline),
                       measured_field("late", &T::late),
-                      measured_field("wake_late", &T::wake_late)};
+                      measured_field("wake_late", &T::wake_late),
+                      measured_field("took", &T::took)};
   }
 };
 
@@ -108,14 +111,15 @@ enum class DeviceFault : std::uint8_t {
   kNoService,  // nothing listens at its address
   kNoFix,      // it says that it has none
   kWrongDate,  // its date cannot be; its position is used, its date is not
+  kFarOff,     // its position lies farther from the world's origin than is set: it is not used
 };
 [[nodiscard]] constexpr auto enumerators(DeviceFault) noexcept {
-  return enumerators_to<DeviceFault::kWrongDate>(
+  return enumerators_to<DeviceFault::kFarOff>(
       "none", "no_port", "port_busy", "no_permission", "not_a_port", "unplugged", "line_full",
       "nobody_listens", "no_way", "starting", "no_answer", "wrong_device", "does_not_fit",
       "setting_refused", "self_test_failed", "self_test_warning", "frozen", "implausible",
       "unusual_beams", "proving", "wrong_mode", "no_time_out", "not_neutral", "box_error",
-      "box_reset", "no_service", "no_fix", "wrong_date");
+      "box_reset", "no_service", "no_fix", "wrong_date", "far_off");
 }
 
 // The same in words, for an operator: what it is and, where it is plain, what mends it.
@@ -155,6 +159,8 @@ enum class DeviceFault : std::uint8_t {
     case DeviceFault::kNoService: return "nothing listens at its address: is gpsd running?";
     case DeviceFault::kNoFix: return "it has no fix: has its antenna the sky above it?";
     case DeviceFault::kWrongDate: return "its date cannot be, and is not used";
+    case DeviceFault::kFarOff:
+      return "its position is farther from the origin than is set: is [origin] right?";
   }
   return "";
 }

@@ -23,6 +23,15 @@ enum class LinkLost : std::uint8_t { kGoOn, kHold, kReturn, kAbort };
   return enumerators_to<LinkLost::kAbort>("go_on", "hold", "return", "abort");
 }
 
+// What is done where the high level was gone under way and is back.
+enum class OnRestart : std::uint8_t {
+  kHold,    // it holds where it is, and waits to be told
+  kResume,  // it sails on
+};
+[[nodiscard]] constexpr auto enumerators(OnRestart) noexcept {
+  return enumerators_to<OnRestart::kResume>("hold", "resume");
+}
+
 struct Goal {
   double x_m = 0.0;  // [m] [world]
   double y_m = 0.0;  // [m] [world]
@@ -66,7 +75,8 @@ struct MissionDefinition {
   double goal_radius_m = 0.0;    // [m] > 0 the goal counts as reached within this
   std::uint32_t goal_count = 0;  // [-] [0, kMaxGoals] 0: no mission
   LinkLost link_lost = LinkLost::kGoOn;
-  Duration link_lost_after{};           // [ns] > 0 without a heartbeat of the commander
+  Duration link_lost_after{};  // [ns] > 0 without a heartbeat of the commander
+  OnRestart on_restart = OnRestart::kHold;
   std::array<Goal, kMaxGoals> goals{};  // waypoints in order, the goal last
   std::uint32_t area_count = 0;         // [-] [0, kMaxAreas]
   std::array<MissionArea, kMaxAreas> areas{};
@@ -84,6 +94,7 @@ struct MissionDefinition {
                       field("goal_count", &M::goal_count),
                       field("link_lost", &M::link_lost),
                       field("link_lost_after", &M::link_lost_after),
+                      field("on_restart", &M::on_restart),
                       field("goals", &M::goals, &M::goal_count),
                       field("area_count", &M::area_count),
                       field("areas", &M::areas, &M::area_count)};

@@ -3,6 +3,8 @@
 // Plain data for the blackboard; any thread.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "mid_level/base/time.h"
@@ -156,6 +158,48 @@ struct VehicleState {
                       field("odometry_y_m", &V::odometry_y_m),
                       field("trust", &V::trust),
                       field("fix_measured", &V::fix_measured)};
+  }
+};
+
+// What an estimator needs besides to go on with the estimate of one that died. Written by the
+// estimator task with each estimate; read by the estimator that comes after. Of sources without a
+// covariance only the first three and `surge_m_s` mean anything.
+struct EstimatorMemory {
+  static constexpr std::size_t kStates = 8;
+
+  Time at{};         // [ns] the time it belongs to
+  double x_m = 0.0;  // [m] [world] of the position that is reckoned on from
+  double y_m = 0.0;  // [m] [world]
+  // Of the pose filter, in the order of its states, and row by row; in their SI units.
+  std::array<double, kStates> mean{};                  // [m, rad, m/s, rad/s]
+  std::array<double, kStates * kStates> covariance{};  // [the same by the same]
+  double surge_m_s = 0.0;                              // [m/s] of the lag behind thrust
+  double odometry_x_m = 0.0;                           // [m] [odometry]
+  double odometry_y_m = 0.0;                           // [m] [odometry]
+  double way_m = 0.0;                                  // [m] >= 0 through the water, ever
+  // Of the gate: the last fix that came and the last that was believed; 0: none.
+  Time fix_last{};                   // [ns]
+  Time fix_believed{};               // [ns]
+  double fix_sigma_m = 0.0;          // [m] >= 0 of that
+  std::uint64_t fixes_believed = 0;  // [-]
+  bool has_filter = false;
+
+  static constexpr auto fields() noexcept {
+    using E = EstimatorMemory;
+    return std::tuple{field("at", &E::at),
+                      field("x_m", &E::x_m),
+                      field("y_m", &E::y_m),
+                      field("mean", &E::mean),
+                      field("covariance", &E::covariance),
+                      field("surge_m_s", &E::surge_m_s).within(-1e3, 1e3),
+                      field("odometry_x_m", &E::odometry_x_m),
+                      field("odometry_y_m", &E::odometry_y_m),
+                      field("way_m", &E::way_m).within(0.0, 1e9),
+                      field("fix_last", &E::fix_last),
+                      field("fix_believed", &E::fix_believed),
+                      field("fix_sigma_m", &E::fix_sigma_m).within(0.0, 1e6),
+                      field("fixes_believed", &E::fixes_believed),
+                      field("has_filter", &E::has_filter)};
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts a task's steps, how late they began, those of its period apart from those it was woken
-// for, and which periods were missed, and publishes that once a second. One thread.
+// for, how long they took and which periods were missed, and publishes that once a second. One
+// thread.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,8 @@ namespace lodesman {
 // A task tells its health at its first step after this has passed.
 inline constexpr Duration kHealthPeriod = std::chrono::seconds{1};
 
-// Which of TaskHealth::late counts a step that began so late.
+// Which of TaskHealth::late counts a step that began so late; of TaskHealth::took, one that took so
+// long.
 [[nodiscard]] constexpr std::size_t late_bucket(Duration late) noexcept {
   const auto us = static_cast<std::uint64_t>(std::max<std::int64_t>(late.count(), 0)) / 1000;
   return std::min<std::size_t>(static_cast<std::size_t>(std::bit_width(us)),
@@ -22,8 +24,8 @@ inline constexpr Duration kHealthPeriod = std::chrono::seconds{1};
 
 using LateCounts = std::array<std::uint64_t, TaskHealth::kLateBuckets>;
 
-// How late, at most, that share (from 0 to 1) of the counted steps began: a power of two of
-// microseconds, or the worst where that is less. Zero where there was no step.
+// How late, at most, that share (from 0 to 1) of the counted steps began, or how long they took: a
+// power of two of microseconds, or the worst where that is less. Zero where there was no step.
 [[nodiscard]] constexpr Duration late_at_most(const LateCounts& late, std::uint64_t worst_ns,
                                               double share) noexcept {
   const Duration worst{static_cast<std::int64_t>(worst_ns)};
@@ -49,6 +51,10 @@ using LateCounts = std::array<std::uint64_t, TaskHealth::kLateBuckets>;
 [[nodiscard]] constexpr Duration wake_late_at_most(const TaskHealth& health,
                                                    double share) noexcept {
   return late_at_most(health.wake_late, health.worst_wake_late_ns, share);
+}
+// How long that share of all its steps took.
+[[nodiscard]] constexpr Duration took_at_most(const TaskHealth& health, double share) noexcept {
+  return late_at_most(health.took, health.worst_step_ns, share);
 }
 
 enum class StepCause : std::uint8_t { kPeriod, kRing };
@@ -79,6 +85,7 @@ class HealthKeeper {
     health_.refused = step.refused;
     health_.last_step_ns = nanoseconds(step.took);
     health_.worst_step_ns = std::max(health_.worst_step_ns, health_.last_step_ns);
+    ++health_.took[late_bucket(step.took)];
     count_late(step);
     health_.over_budget += budget_ > Duration::zero() && step.took > budget_ ? 1U : 0U;
     health_.past_deadline +=

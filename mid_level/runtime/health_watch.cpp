@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mid_level/runtime/health_watch.h"
 
+#include <algorithm>
+
 namespace lodesman {
 namespace {
 
@@ -37,6 +39,13 @@ void HealthWatch::listen(Watched& watched, Time now) noexcept {
 
 bool HealthWatch::is_silent(const Watched& watched, Time now) noexcept {
   return watched.heard && now - *watched.heard > watched.limit;
+}
+
+bool HealthWatch::all_step(Time now) {
+  return std::all_of(tasks_.begin(), tasks_.end(), [now](Watched& watched) {
+    listen(watched, now);
+    return watched.heard > watched.begun;
+  });
 }
 
 std::vector<SilentTask> HealthWatch::silent(Time now) {

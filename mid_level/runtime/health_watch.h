@@ -30,6 +30,8 @@ class HealthWatch {
   // These tasks, which are to step from `since` on; what was told before is another run's.
   HealthWatch(const Blackboard& board, std::span<const TaskEntry> tasks, Time since);
 
+  // Whether each has told of itself since it was to begin.
+  [[nodiscard]] bool all_step(Time now);
   // Those that are silent at `now`.
   [[nodiscard]] std::vector<SilentTask> silent(Time now);
   // One line for each task that fell silent, or spoke again, since the last call.
@@ -41,6 +43,7 @@ class HealthWatch {
     Duration limit;
     Reader<TaskHealth> reader;
     std::optional<Time> heard;           // nothing: never
+    std::optional<Time> begun = heard;   // to step
     std::optional<Time> silent_since{};  // as news() has said
   };
 

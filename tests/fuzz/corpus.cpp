@@ -73,6 +73,7 @@ TEST_CASE("fuzz corpus: command lines", "[fuzz]") { run_all("command_line"); }
 TEST_CASE("fuzz corpus: configurations", "[fuzz]") { run_all("configuration"); }
 TEST_CASE("fuzz corpus: what a sonar says", "[fuzz]") { run_all("delta_t"); }
 TEST_CASE("fuzz corpus: frames of plan", "[fuzz]") { run_all("frames"); }
+TEST_CASE("fuzz corpus: handshakes and sealed lines", "[fuzz]") { run_all("handshake"); }
 TEST_CASE("fuzz corpus: images of segment", "[fuzz]") { run_all("image"); }
 TEST_CASE("fuzz corpus: answers of a maestro", "[fuzz]") { run_all("maestro"); }
 TEST_CASE("fuzz corpus: maps of plan", "[fuzz]") { run_all("map"); }

@@ -109,9 +109,10 @@ void message(std::string_view input) {
   ThrusterTask thruster{*board, Role::kLow, &box};
   RecordingHash onlooker{*board};
   lay_good_values(*board);
+  const std::size_t channel_count = testing::channels_of(*board);
   std::size_t index = 0;
   for_each_channel(*board, [&](const ChannelInfo& /*info*/, auto& channel) {
-    if (index++ == chosen / 2 % testing::kChannels) {
+    if (index++ == chosen / 2 % channel_count) {
       overlay(channel, input);
     }
   });

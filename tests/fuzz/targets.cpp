@@ -12,6 +12,7 @@ std::span<const Target> targets() {
       Target{"delta_t", delta_t, "", 100},
       Target{"frames", frames, ""},
       Target{"gpsd", gpsd, ""},
+      Target{"handshake", handshake, ""},
       Target{"image", image, ""},
       Target{"maestro", maestro, "", 60},
       Target{"map", map, ""},

@@ -64,3 +64,34 @@ number() { if [ "$2" = - ]; then echo -; else printf '%.*f\n' "$1" "$2"; fi; }
 
 # holds <condition in awk>
 holds() { awk "BEGIN { exit !($1) }"; }
+
+# memory_of <process>: [KiB] resident; nothing where it has ended.
+memory_of() { sed -n 's/^VmRSS:[^0-9]*\([0-9]*\) kB/\1/p' "/proc/$1/status" 2>/dev/null; }
+
+# end_with <variable>: the process that it names ends with this script.
+end_with() {
+  # shellcheck disable=SC2064  # the name of the variable is known now
+  trap "[ -z \"\$$1\" ] || kill \"\$$1\" 2>/dev/null || true; rm -rf \"\$place\"" EXIT INT TERM
+}
+
+# squares <side in m> <count> <speed in m/s> <time limit in s>: a scenario that goes round a square so
+# often, without obstacles.
+squares() {
+  local corners="[0.0, $1], [$1, $1], [$1, 0.0], [0.0, 0.0]" rounds i
+  rounds=$corners
+  for ((i = 1; i < $2; i++)); do rounds="$rounds, $corners"; done
+  cat <<END
+name = "round"
+seed = 1
+time_limit_s = $4
+[mission]
+start_m = [0.0, 0.0]
+start_heading_deg = 0.0
+goal_m = [5.0, 5.0]
+goal_radius_m = 0.5
+waypoints_m = [$rounds]
+[vehicle]
+speed_m_s = $3
+radius_m = 0.5
+END
+}

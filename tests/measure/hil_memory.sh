@@ -9,28 +9,10 @@ set -eu
 . "$(dirname "$0")/common.sh"
 minutes=${1:-60}
 run=
-trap '[ -z "$run" ] || kill "$run" 2>/dev/null || true; rm -rf "$place"' EXIT INT TERM
+end_with run
 
-# 160 m, some 12 minutes.
-corners='[0.0, 40.0], [40.0, 40.0], [40.0, 0.0], [0.0, 0.0]'
-rounds=$corners
-for ((round = 1; round * 12 < minutes; round++)); do
-  rounds="$rounds, $corners"
-done
-cat >"$place/round.toml" <<END
-name = "round"
-seed = 1
-time_limit_s = $(((round + 1) * 15 * 60)).0
-[mission]
-start_m = [0.0, 0.0]
-start_heading_deg = 0.0
-goal_m = [5.0, 5.0]
-goal_radius_m = 0.5
-waypoints_m = [$rounds]
-[vehicle]
-speed_m_s = 0.22
-radius_m = 0.5
-END
+rounds=$(((minutes + 11) / 12))  # of 160 m, some 12 minutes each
+squares 40.0 "$rounds" 0.22 "$(((rounds + 1) * 15 * 60)).0" >"$place/round.toml"
 
 "$bin/lodesman" hil "$place/round.toml" --no-images --quiet --set command_socket.port=0 \
   --out "$place/run" >"$place/said" 2>&1 &
@@ -43,7 +25,7 @@ while kill -0 "$run" 2>/dev/null; do
   minute=$(awk "BEGIN { printf \"%.1f\", ($SECONDS - $begun) / 60 }")
   for process in "$run" $(cat "/proc/$run/task/$run/children" 2>/dev/null); do
     name=$(cat "/proc/$process/comm" 2>/dev/null) || continue
-    memory=$(sed -n 's/^VmRSS:[^0-9]*\([0-9]*\) kB/\1/p' "/proc/$process/status" 2>/dev/null)
+    memory=$(memory_of "$process")
     descriptors=$(find "/proc/$process/fd" -mindepth 1 2>/dev/null | wc -l)
     [ -z "$memory" ] || [ "$descriptors" = 0 ] ||
       printf '%8s %-18s %12s %12s\n' "$minute" "$name" "$memory" "$descriptors" |
@@ -69,7 +51,7 @@ awk '{ if (!($2 in n)) { order[++names] = $2 }
          growth = (memory[name, last] - memory[name, half]) / hours
          printf "%s: %.0f KiB an hour over the second half, %d descriptors more\n", name, growth,
                 held[name, last] - held[name, half]
-         bad = bad || (name != "lodesman" && (growth > 1024 || held[name, last] > held[name, half]))
+         bad = bad || (name != "lodesman-bench" && (growth > 1024 || held[name, last] > held[name, half]))
        }
        exit bad
      }' "$place/table" || failed=1

@@ -9,28 +9,11 @@ set -eu
 . "$(dirname "$0")/common.sh"
 hours=${1:-12}
 run=
-trap '[ -z "$run" ] || kill "$run" 2>/dev/null || true; rm -rf "$place"' EXIT INT TERM
+end_with run
 
-corners='[0.0, 190.0], [190.0, 190.0], [190.0, 0.0], [0.0, 0.0]'
-rounds=$corners
-round=2  # takes 1.92 h
-while [ $((round * 2)) -le "$hours" ]; do
-  rounds="$rounds, $corners"
-  round=$((round + 1))
-done
-cat >"$place/round.toml" <<END
-name = "round"
-seed = 1
-time_limit_s = $((hours * 3600)).0
-[mission]
-start_m = [0.0, 0.0]
-start_heading_deg = 0.0
-goal_m = [5.0, 5.0]
-goal_radius_m = 0.5
-waypoints_m = [$rounds]
-[vehicle]
-speed_m_s = 0.11
-radius_m = 0.5
+rounds=$((hours > 3 ? hours / 2 : 1))  # of 1.92 h each
+squares 190.0 "$rounds" 0.11 "$((hours * 3600)).0" >"$place/round.toml"
+cat >>"$place/round.toml" <<END
 [[obstacle]]
 shape = "circle"
 centre_m = [0.0, 95.0]
@@ -48,8 +31,7 @@ virtual_s() {
 heading
 printf '%8s %12s %12s\n' 'hours' 'memory KiB' 'disk KiB'
 next_s=1
-while memory=$(sed -n 's/^VmRSS:[^0-9]*\([0-9]*\) kB/\1/p' "/proc/$run/status" 2>/dev/null) &&
-  [ -n "$memory" ]; do
+while memory=$(memory_of "$run") && [ -n "$memory" ]; do
   at_s=$(virtual_s)
   if [ "${at_s:-0}" -ge "$next_s" ]; then
     printf '%8s %12s %12s\n' "$(awk "BEGIN { printf \"%.2f\", $at_s / 3600 }")" "$memory" \

@@ -9,12 +9,18 @@
 #include <cstring>
 #include <memory>
 #include <random>
+#include <vector>
 
 #include "mid_level/blackboard/blackboard.h"
 
 namespace lodesman::testing {
 
-inline constexpr std::size_t kChannels = 21 + kDeviceCount + kTaskCount;
+template <class Board>
+[[nodiscard]] std::size_t channels_of(Board& board) {
+  std::size_t count = 0;
+  for_each_channel(board, [&](const ChannelInfo& /*info*/, auto& /*channel*/) { ++count; });
+  return count;
+}
 
 template <class T>
 void put_words(ChannelSlot<T>& slot, const T& value) noexcept {
@@ -41,7 +47,7 @@ class RandomForger {
 
   // One forgery in one channel.
   void forge(Blackboard& board) {
-    const std::size_t chosen = random_() % kChannels;
+    const std::size_t chosen = random_() % channels_of(board);
     std::size_t index = 0;
     for_each_channel(board, [&](const ChannelInfo& /*info*/, auto& channel) {
       if (index++ == chosen) {
@@ -108,6 +114,8 @@ class PublicationSpoiler {
   // To be called after every step of a task: at most one publication a channel has come since.
   void follow(Blackboard& board) {
     std::size_t index = 0;
+    seen_.resize(channels_of(board));
+    whole_.resize(seen_.size());
     for_each_channel(board, [&](const ChannelInfo& /*info*/, auto& channel) {
       const std::uint64_t newest = channel.head.newest.load();
       if (newest > seen_[index]) {
@@ -156,8 +164,8 @@ class PublicationSpoiler {
   std::mt19937_64 choice_;  // the same choices for either kind
   std::mt19937_64 bytes_;
   std::uint64_t one_in_;
-  std::array<std::uint64_t, kChannels> seen_{};
-  std::array<std::uint64_t, kChannels> whole_{};  // the last one that was not spoilt
+  std::vector<std::uint64_t> seen_;   // by channel
+  std::vector<std::uint64_t> whole_;  // the last one that was not spoilt
   std::uint64_t spoilt_ = 0;
 };
 

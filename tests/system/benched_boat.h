@@ -33,9 +33,11 @@ enum class Benched : std::uint8_t {
 // Three programs: the bench, and the boat's two.
 class BenchedBoat {
  public:
-  // `high_options`: of lodesman-high. Throws where a program cannot be started.
+  // `high_options`: of lodesman-high; `sets`: of the configuration, SECTION.KEY=VALUE. Throws where
+  // a program cannot be started.
   explicit BenchedBoat(const std::string& box, std::vector<std::string> high_options = {},
-                       Benched benched = Benched::kHeadingAndThrusters)
+                       Benched benched = Benched::kHeadingAndThrusters,
+                       const std::vector<std::string>& sets = {})
       : high_options_{std::move(high_options)},
         ports_{scratch_.file("ports")},
         control_{scratch_.file("control")},
@@ -58,6 +60,7 @@ class BenchedBoat {
                                        "estimator.position_source=dead_reckoning",
                                        "simulation.vessel=estimate"};
     options.sets.insert(options.sets.end(), others.begin(), others.end());
+    options.sets.insert(options.sets.end(), sets.begin(), sets.end());
     const auto config =
         scratch_.file("config.toml", load_configuration("default", options).to_text());
     const auto scenario = scratch_.file("scenario.toml", scenario_text(1900.0, 10'000.0));

@@ -53,12 +53,14 @@ class Scratch {
   fs::path directory_;
 };
 
-// A goal that is far enough to be under way while things die.
-inline std::string scenario_text(double goal_y_m, double time_limit_s = 120.0) {
+// A goal that is far enough to be under way while things die, and a mission that is sailed on with
+// unless told otherwise.
+inline std::string scenario_text(double goal_y_m, double time_limit_s = 120.0,
+                                 const std::string& on_restart = "resume") {
   return "name = \"short\"\nseed = 1\ntime_limit_s = " + std::to_string(time_limit_s) +
          "\n[mission]\nstart_m = [0.0, 0.0]\nstart_heading_deg = 0.0\ngoal_m = [0.0, " +
-         std::to_string(goal_y_m) +
-         "]\ngoal_radius_m = 0.5\n[vehicle]\nspeed_m_s = 0.74\nradius_m = 0.5\n";
+         std::to_string(goal_y_m) + "]\ngoal_radius_m = 0.5\non_restart = \"" + on_restart +
+         "\"\n[vehicle]\nspeed_m_s = 0.74\nradius_m = 0.5\n";
 }
 
 // Patience for what a machine under load may take its time over; nothing is judged by it.

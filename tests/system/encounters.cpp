@@ -17,9 +17,10 @@ namespace {
 constexpr int kGroupSize = 50;
 
 // Run down from outside the fan by what is faster than they are: the reference finds no escape from
-// the first sight on (escape.h says what it tries). Every other one reaches its goal. A number
-// goes from this list when it is sailed well, and none comes in without a look at why.
-constexpr std::array kNoEscape{4, 16, 69, 106, 110, 126, 162, 277};
+// the first sight on (escape.h says what it tries); 231 is overtaken by what it never saw. Every
+// other one reaches its goal. A number goes from this list when it is sailed well, and none comes
+// in without a look at why.
+constexpr std::array kNoEscape{4, 16, 69, 106, 110, 126, 162, 231, 277};
 
 void sail_group(int group) {
   Outcomes outcomes;

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The driver on the gpsd that Debian ships, which reads a receiver at the end of a pty. Without
 // gpsd these tests are skipped.
-#include <arpa/inet.h>
-#include <sys/socket.h>
-
 #include <ctime>
-#include <iostream>
 
 #include "drivers/gpsd/gpsd_receiver.h"
-#include "drivers/stream/file_descriptor.h"
 #include "drivers/stream/make_line.h"
 #include "mid_level/base/clock.h"
 #include "tests/support/pty_device.h"
+#include "tests/system/gpsd_program.h"
 #include "tests/system/program.h"
 #include "tests/unit/nmea/sentence_lines.h"
 
@@ -19,33 +15,6 @@ namespace lodesman::testing {
 namespace {
 
 using std::chrono::milliseconds;
-
-[[nodiscard]] std::optional<fs::path> gpsd_program() {
-  for (const char* place : {"/usr/sbin/gpsd", "/usr/local/sbin/gpsd"}) {
-    if (access(place, X_OK) == 0) {
-      return place;
-    }
-  }
-  const char* named = std::getenv("LODESMAN_GPSD");  // NOLINT(concurrency-mt-unsafe): nobody writes
-  if (named != nullptr && *named != '\0') {
-    return named;
-  }
-  std::cout << "skipped: no gpsd is installed (sudo apt-get install gpsd)\n";
-  return std::nullopt;
-}
-
-// One that is free by now.
-[[nodiscard]] std::string free_port() {
-  const FileDescriptor trial{socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  auto* general = reinterpret_cast<sockaddr*>(&address);
-  REQUIRE(bind(trial.value(), general, size) == 0);
-  REQUIRE(getsockname(trial.value(), general, &size) == 0);
-  return std::to_string(ntohs(address.sin_port));
-}
 
 // gpsd, its receiver, and the driver, on the machine's own time: a gpsd hands it to time daemons.
 class Bench {
@@ -113,7 +82,7 @@ class Bench {
   }
 
   fs::path program_;
-  std::string port_ = free_port();
+  std::string port_ = free_tcp_port();
   PtyDevice pty_;
   std::optional<Program> gpsd_;
   std::unique_ptr<ByteStream> line_ = make_tcp_line("127.0.0.1:" + port_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real drivers, told by an operator, against devices that are emulated to the byte.
 #include "high_level/mission/token_file.h"
+#include "mid_level/base/geodesy.h"
 #include "tests/support/catch.h"
 #include "tests/system/benched_boat.h"
 #include "tests/system/listening_port.h"
@@ -128,4 +129,79 @@ TEST_CASE("hil: four real drivers at once, and what each says when its device fa
   };
   CHECK(reaches(9.0, 11.0));   // as its user has it
   CHECK(reaches(29.0, 31.0));  // as the driver asked again
+}
+
+TEST_CASE("bench: at_start the receiver's first fixes are the origin, which outlives both programs",
+          "[system]") {
+  BenchedBoat boat{"maestro", {}, Benched::kAll, {"origin.at_start=true"}};
+  const auto found = [&] {
+    std::optional<SharedBlackboard> board;
+    REQUIRE(eventually([&] {
+      try {
+        board.emplace(SharedBlackboard::observe(boat.segment(), Duration::zero()));
+      } catch (const StartupError&) {
+        return false;
+      }
+      return board->alive(Role::kLow) && board->alive(Role::kHigh);
+    }));
+    Reader<VehicleState> states{(*board)->vehicle_state};
+    const std::uint64_t before = states.newest_sequence();
+    REQUIRE(eventually([&] { return states.newest_sequence() > before + 20; }));
+    Reader<WorldOrigin> origins{(*board)->world_origin};
+    CHECK(origins.newest_sequence() == 1);
+    return await_first(origins).value;
+  };
+  const WorldOrigin first = found();
+  CHECK(first.source == OriginSource::kFirstFix);
+  CHECK(rough_distance_m({first.latitude_deg, first.longitude_deg}, {35.0, 139.0}) < 20.0);
+  const auto is_first = [&](const WorldOrigin& origin) {
+    return rough_distance_m({first.latitude_deg, first.longitude_deg},
+                            {origin.latitude_deg, origin.longitude_deg}) < 1e-6 &&
+           origin.fixed == first.fixed;
+  };
+  const auto end = [](ChildProcess& process, int signal) {
+    REQUIRE(kill(process.pid(), signal) == 0);
+    REQUIRE(eventually([&] { return process.ended().has_value(); }));
+  };
+  end(*boat.high, SIGKILL);
+  boat.start_high();
+  CHECK(is_first(found()));
+  end(*boat.low, SIGKILL);  // it takes its segment over
+  boat.start_low();
+  CHECK(is_first(found()));
+  end(*boat.low, SIGTERM);  // it makes another
+  boat.start_low();
+  CHECK(is_first(found()));
+}
+
+TEST_CASE(
+    "hil: a low level that died goes by the proof on record, and proves a box that was away anew",
+    "[system]") {
+  OperatedBoat operated{"maestro"};
+  BenchedBoat& boat = operated.boat;
+  REQUIRE(operated.is_obeyed({"arm"}));
+  REQUIRE(operated.is_obeyed({"start"}));
+  boat.await_drive();
+  Reader<BoxProof> proofs{(*operated.board)->box_proof};
+  const Stamped<BoxProof> first = await_first(proofs);
+  REQUIRE(first.value.power_up != 0);
+  const auto kill_low = [&] {
+    REQUIRE(kill(boat.low->pid(), SIGKILL) == 0);
+    REQUIRE(eventually([&] { return boat.low->ended().has_value(); }));
+    CHECK(boat.still_after_s(Time{}) >= 0.0);
+  };
+  kill_low();
+  boat.start_low();
+  boat.await_drive();
+  const BoxProof recalled = await_first(proofs).value;
+  CHECK(recalled.proved == first.value.proved);  // it stands: nothing was proved since
+  CHECK(recalled.power_up == first.value.power_up);
+  kill_low();
+  boat.order("thruster disconnect for=0.2");
+  std::this_thread::sleep_for(milliseconds{400});
+  boat.start_low();
+  boat.await_drive();
+  const BoxProof anew = await_first(proofs).value;
+  CHECK(anew.proved > first.value.proved);
+  CHECK(anew.power_up != first.value.power_up);
 }

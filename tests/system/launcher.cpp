@@ -22,7 +22,9 @@ class Ship {
  public:
   explicit Ship(const Scratch& scratch) : place_{scratch.file("ship")} {
     fs::create_directories(place_);
-    fs::copy_file(program("lodesman"), place_ / "lodesman");
+    for (const char* name : {"lodesman", "lodesman-bench"}) {
+      fs::copy_file(program(name), place_ / name);
+    }
     setenv("LODESMAN_SHARE", share_directory().c_str(), 1);
   }
   Ship(const Ship&) = delete;

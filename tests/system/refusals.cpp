@@ -187,7 +187,7 @@ TEST_CASE("refusals: sim refuses bad options and configurations", "[system][refu
       {{"--set", "planner.space=\"moon\""}, "^--set:1: planner.space: must be one of", ""},
       {{"--set", "pilot.narrow_speed_share=0"}, "^--set:1: pilot.narrow_speed_share: ", ""},
       {{"--set", "pilot.clearance=1"}, "^--set:1: pilot.clearance: unknown key", ""},
-      {{"--set", "vehicle.surge_time_s=0"}, "^--set:1: vehicle.surge_time_s: must be", ""},
+      {{"--set", "vehicle.mass_kg=0"}, "^--set:1: vehicle.mass_kg: must be", ""},
       {{"--set", "tracks.delay_s=2.5"}, "^--set:1: tracks.delay_s: must be", ""},
       {{"--set", "tracks.dropout=1"}, "^--set:1: tracks.dropout: must be", ""},
       {{"--set", "command_socket.port=70000"}, "^--set:1: command_socket.port: ", ""},
@@ -226,7 +226,7 @@ TEST_CASE("refusals: sim refuses bad options and configurations", "[system][refu
 }
 
 TEST_CASE(
-    "refusals: an order names a port that can be, a host that is loopback and a sound token file",
+    "refusals: an order names a port that can be, a host whose token it has and a sound token file",
     "[system][refusals]") {
   const std::vector<std::vector<std::string>> rows{{"--port", "99999"},
                                                    {"--port", "65536"},

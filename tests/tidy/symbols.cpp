@@ -21,6 +21,7 @@ using Places = std::vector<std::string_view>;
 const std::vector<SymbolRule>& symbol_rules() {
   // Boost.Asio has a clock, locks and a thread of its own.
   constexpr std::string_view kAsio = "high_level/mission/command_socket.cpp";
+  constexpr std::string_view kAsioLines = "high_level/mission/command_session.cpp";
   constexpr std::string_view kOperator = "deploy";
   static const std::vector<SymbolRule> rules{
       {"clocks and waits",
@@ -30,17 +31,17 @@ const std::vector<SymbolRule>& symbol_rules() {
        {"mid_level/base/clock.cpp", "mid_level/blackboard/bell.cpp",
         "mid_level/blackboard/segment.cpp", "drivers/stream/reconnecting_line.cpp",
         "drivers/stream/tcp_port.cpp", "drivers/stream/udp_socket.cpp",
-        "hal_sim/emulators/device_port.cpp", kAsio, kOperator}},
+        "hal_sim/emulators/device_port.cpp", kAsio, kAsioLines, kOperator}},
       {"locks",
        R"(pthread_(mutex|rwlock|cond|spin|barrier|once)\w*|sem_\w+|__cxa_guard_acquire)"
        R"(|std::(condition_variable|__once|mutex|shared_mutex|recursive_mutex)\b.*)",
        {""},
-       {kAsio, kOperator}},
+       {kAsio, kAsioLines, kOperator}},
       {"threads",
        R"(pthread_create|std::thread::_M_start_thread\(.*|thrd_create|fork|vfork|clone)",
        {""},
        {"mid_level/runtime", "drivers/stream/reconnecting_line.cpp",
-        "drivers/stream/udp_socket.cpp", kAsio, kOperator}},
+        "drivers/stream/udp_socket.cpp", kAsio, kAsioLines, kOperator}},
       // check.cpp says why it ends the process.
       {"log calls",
        R"(spdlog::.*|fmt::\w+::v?print.*|std::c(out|err|log)|(__)?v?[fd]?printf(_chk)?|f?puts)"
@@ -48,9 +49,10 @@ const std::vector<SymbolRule>& symbol_rules() {
        {""},
        {"mid_level/base/check.cpp", kOperator}},
       {"chance",
-       R"(s?rand(om)?|rand_r|[a-z]rand48|std::random_device::.*|getrandom|getentropy)",
+       R"(s?rand(om)?|rand_r|[a-z]rand48|std::random_device::.*|getrandom|getentropy)"
+       R"(|randombytes_\w+)",
        {""},
-       {"high_level/mission/token_file.cpp"}},
+       {"high_level/mission/token_file.cpp", "high_level/mission/message_code.cpp"}},
       // Where nothing at all is allocated, not even at the start. Of the others' work in each
       // period tests count what is: see tests/support/allocations.h.
       {"allocations",
@@ -60,7 +62,8 @@ const std::vector<SymbolRule>& symbol_rules() {
         "low_level/tasks/thruster.cpp", "low_level/sonar/blob.cpp",
         "low_level/sonar/known_obstacles.cpp", "low_level/sonar/protection.cpp",
         "high_level/control", "high_level/estimate", "high_level/guidance/manoeuvre.cpp",
-        "high_level/guidance/route.cpp", "high_level/guidance/waypoints.cpp",
+        "high_level/guidance/rollout.cpp", "high_level/guidance/route.cpp",
+        "high_level/guidance/steering.cpp", "high_level/guidance/waypoints.cpp",
         "high_level/guidance/zones.cpp"},
        {}},
   };

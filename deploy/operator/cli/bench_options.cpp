@@ -52,7 +52,7 @@ void set_bench_world(const BoatConfig& configuration, const std::string& scenari
   const Scenario bench = load_named_scenario(scenario, configuration.speeds);
   const bool simulates = simulated_device(configuration.devices) != nullptr;
   std::vector<std::string> sets{
-      simulates ? "simulation.vessel=estimate" : "simulation.vessel=bench",
+      simulates ? "simulation.vessel=estimate" : "simulation.vessel=bench", "origin.at_start=false",
       fmt::format("origin.deg=[{}, {}]", bench.environment.origin_latitude_deg,
                   bench.environment.origin_longitude_deg)};
   if (bench.position.source == PositionSource::kDeadReckoning) {

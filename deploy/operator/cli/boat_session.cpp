@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <boost/asio/ip/address.hpp>
 #include <memory>
 #include <thread>
 
 #include "deploy/boat/configuration.h"
 #include "deploy/operator/cli/number_options.h"
 #include "high_level/mission/command_line.h"
+#include "high_level/mission/handshake.h"
+#include "high_level/mission/network.h"
 #include "high_level/mission/token_file.h"
 #include "mid_level/base/clock.h"
 
@@ -18,19 +19,22 @@ namespace {
 
 constexpr Duration kRetryPeriod = std::chrono::milliseconds{20};
 
-// The token never crosses a network in the clear: a name might.
-[[nodiscard]] std::string loopback_only(const std::string& host) {
-  boost::system::error_code error;
-  const auto address =
-      boost::asio::ip::make_address(host == "localhost" ? "127.0.0.1" : host, error);
-  if (error) {
-    throw CLI::ValidationError("--host", "must be an IP address");
+constexpr std::size_t kMaxReply = 1024 * 1024;  // [bytes] whatever it is that answers
+
+// A name is looked up later, and may be anybody's.
+[[nodiscard]] bool is_own_machine(const std::string& host) {
+  return host == "localhost" || reach_of(host) == Reach::kLoopback;
+}
+
+// Without the line feed; empty where none came, or no end of it.
+[[nodiscard]] std::string line_from(std::istream& stream) {
+  std::string line;
+  for (char c = 0; stream.get(c) && line.size() < kMaxReply; line += c) {
+    if (c == '\n') {
+      return line;
+    }
   }
-  if (!address.is_loopback()) {
-    throw CLI::ValidationError(
-        "--host", "must be loopback, as the token would cross the network in the clear");
-  }
-  return address.to_string();
+  return "";
 }
 
 // What stops the boat is asked for again and again: a crowd may have pushed it out.
@@ -65,12 +69,25 @@ void print_reply(const std::string& command, const nlohmann::ordered_json& reply
 
 Boat find_boat(const OperatorOptions& options) {
   const auto settings = load_configuration("default", options.common).command_socket;
-  Boat boat{loopback_only(options.host), options.port.value_or(settings.port), ""};
+  const bool own_machine = is_own_machine(options.host);
+  if (options.host.empty()) {
+    throw CLI::ValidationError("--host", "must be an IP address or a name");
+  }
+  Boat boat{options.host == "localhost" ? "127.0.0.1" : options.host,
+            options.port.value_or(settings.port), "", Credential::kProved};
   const std::string& given = options.token_file.empty() ? settings.token_file : options.token_file;
   if (!given.empty()) {
     boat.token = read_token(given);
+    if (!own_machine && !is_random_token(boat.token)) {
+      throw StartupError(given, 1, "token", "is none that lodesman token --new FILE makes");
+    }
+  } else if (!own_machine) {
+    throw CLI::ValidationError("--host",
+                               "beyond loopback needs --token-file, a copy of the file that the "
+                               "boat's token_file names");
   } else if (const auto found = find_token_file(boat.port); found) {
     boat.token = read_token(*found);
+    boat.credential = Credential::kShown;
   } else {
     throw NoBoat(fmt::format("no boat with a command socket on port {}: is lodesman-high running?",
                              boat.port));
@@ -81,17 +98,61 @@ Boat find_boat(const OperatorOptions& options) {
 BoatSession::BoatSession(const Boat& boat, Duration patience) : boat_{boat} {
   stream_.expires_after(patience);
   stream_.connect(boat.host, std::to_string(boat.port));
+  if (stream_ && boat.credential == Credential::kProved) {
+    prove();
+  }
+}
+
+NoBoat BoatSession::fault(const std::string& what) const {
+  return NoBoat{fmt::format("{} port {} {}", boat_.host, boat_.port, what)};
+}
+
+std::string BoatSession::exchange(const std::string& line) {
+  stream_ << line << "\n" << std::flush;
+  return line_from(stream_);
+}
+
+// An end of the connection is no fault: asked for anything, it then gives no line.
+void BoatSession::prove() {
+  require_cryptography();
+  ClientHandshake handshake{boat_.token, random_digest()};
+  const std::string challenge = exchange(handshake_request());
+  if (challenge.empty()) {
+    return;
+  }
+  if (const auto wrong = handshake.hear_challenge(challenge)) {
+    throw fault(*wrong);
+  }
+  const std::string proof = exchange(handshake.answer());
+  if (proof.empty()) {
+    return;
+  }
+  if (const auto wrong = handshake.hear_proof(proof)) {
+    throw fault(*wrong);
+  }
+  sealed_.emplace(handshake.keys(), SessionEnd::kClient);
 }
 
 std::string BoatSession::ask(nlohmann::json request, Duration patience) {
+  if (boat_.credential == Credential::kProved && !sealed_) {
+    return "";
+  }
   request["protocol"] = kCommandProtocol;
-  request["token"] = boat_.token;
+  if (!sealed_) {
+    request["token"] = boat_.token;
+  }
   stream_.expires_after(patience);
-  stream_ << request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n"
-          << std::flush;
-  std::string line;
-  std::getline(stream_, line);
-  return line;
+  const std::string text = request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  const std::string line = exchange(sealed_ ? sealed_->seal(text) : text);
+  if (!sealed_ || line.empty()) {
+    return line;
+  }
+  const auto opened = sealed_->open(line);
+  if (!opened) {
+    throw fault(
+        "gave an answer that was altered on its way: what was asked for may be done or not");
+  }
+  return *opened;
 }
 
 int reply_status(const std::string& command, const nlohmann::ordered_json& reply) {
@@ -136,12 +197,16 @@ int or_say_why(const std::string& command, const std::function<int()>& act) {
 }
 
 void add_boat_options(CLI::App& command, OperatorOptions& options) {
-  command.add_option("--host", options.host, "Where lodesman-high runs: loopback")
+  command
+      .add_option("--host", options.host,
+                  "Where lodesman-high runs; beyond this machine with --token-file")
       ->type_name("ADDRESS");
   command.add_option("--port", options.port, "Of its command socket")
       ->type_name("N")
       ->check(number_from(1, 65535));
-  command.add_option("--token-file", options.token_file, "Instead of the one that it left")
+  command
+      .add_option("--token-file", options.token_file,
+                  "The boat's lasting one, or a copy; else the one it left here")
       ->type_name("FILE");
   add_common_options(command, options.common);
 }

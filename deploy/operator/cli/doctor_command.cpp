@@ -12,6 +12,7 @@
 #include "deploy/operator/doctor/maestro_boxes.h"
 #include "deploy/operator/doctor/port_diagnosis.h"
 #include "deploy/operator/doctor/ports.h"
+#include "deploy/operator/doctor/receive_buffer.h"
 #include "mid_level/base/startup_error.h"
 
 namespace lodesman::cli {
@@ -21,6 +22,7 @@ struct Wanted {
   std::vector<NamedPort> ports;
   MaestroNeeds box;
   std::string position;  // its address
+  std::string sonar;     // the same
 };
 
 // Nothing where the configuration cannot be read, of which the machine's findings tell.
@@ -28,7 +30,8 @@ struct Wanted {
   try {
     const BoatConfig config = load_configuration("default", options);
     return {ports_named_in(config.devices),
-            maestro_needs(config.devices.thrusters, config.thrust_shape), config.devices.position};
+            maestro_needs(config.devices.thrusters, config.thrust_shape), config.devices.position,
+            config.devices.sonar};
   } catch (const StartupError&) {
     return {};
   }
@@ -43,6 +46,9 @@ struct Wanted {
   const PortsFacts ports = measure_ports(wanted.ports);
   add(judge_ports(ports));
   add(judge_maestros(measure_maestros(ports, wanted.box), wanted.box));
+  if (const auto buffer = measure_receive_buffer(wanted.sonar)) {
+    findings.push_back(judge_receive_buffer(*buffer));
+  }
   if (const auto gpsd = measure_gpsd(wanted.position)) {
     findings.push_back(judge_gpsd(*gpsd));
   }

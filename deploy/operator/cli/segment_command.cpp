@@ -264,7 +264,7 @@ void show_progress(const SegmentOptions& options, std::size_t done) {
 class SegmentCommand : public CLI::App {
  public:
   explicit SegmentCommand(int& exit_status)
-      : CLI::App{"Find obstacles in sonar frames", "segment"}, exit_status_{exit_status} {
+      : CLI::App{kSegmentDescription, "segment"}, exit_status_{exit_status} {
     add_common_options(*this, options_.common);
     add_input_options();
     add_option("--overlay", options_.overlay_dir, "Draw what was found into this directory")

@@ -7,6 +7,8 @@
 
 namespace lodesman::cli {
 
+inline constexpr const char* kSegmentDescription = "Find obstacles in sonar frames";
+
 // `exit_status` must outlive `root`; it is set when the command has run.
 void add_segment_command(CLI::App& root, int& exit_status);
 

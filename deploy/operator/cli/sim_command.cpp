@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/operator/cli/sim_command.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -31,7 +30,6 @@
 #include "deploy/operator/run/run_directory.h"
 #include "deploy/operator/watch/find_segment.h"
 #include "hal_sim/campaign/encounter.h"
-#include "mid_level/base/utc.h"
 
 namespace lodesman::cli {
 namespace {
@@ -55,12 +53,8 @@ struct SimOptions {
   if (!options.out.empty()) {
     return make_named_directory(options.out, options.force);
   }
-  const std::time_t now = std::time(nullptr);
-  // Of a machine without a clock all runs would be of one day in the past.
-  const bool is_known = is_plausible_utc(std::int64_t{now} * 1'000'000'000);
-  const std::string when =
-      is_known ? fmt::format("{:%Y%m%dT%H%M%SZ}", fmt::gmtime(now)) : "no-clock";
-  return make_new_directory(fs::path{"runs"} / (when + "-" + scenario.name));
+  const std::int64_t now_s = std::time(nullptr);
+  return make_new_directory(fs::path{"runs"} / run_name(now_s * 1'000'000'000, scenario.name));
 }
 
 [[nodiscard]] std::string read_text(const fs::path& file) {
@@ -236,7 +230,7 @@ class RunOutput {
   const std::string scenario_text =  // before it may be overwritten
       number ? encounter_scenario(*number) : read_text(scenario_file(options.scenario));
   // Nothing is refused any more: now there may be files.
-  const fs::path directory = run_directory(options, scenario);
+  fs::path directory = run_directory(options, scenario);
   write_whole_file(directory / "config.toml", configuration.to_text());
   write_whole_file(directory / "scenario.toml", scenario_text);
 
@@ -256,6 +250,9 @@ class RunOutput {
     record.result.outcome = record.result.collided ? "collision" : "aborted";
   }
   output.finish(directory, record);
+  if (options.out.empty() && has_no_clock(directory)) {
+    directory = rename_by_clock(directory, record.started_utc_ns, scenario.name);
+  }
   if (options.common.json) {
     fmt::print("{}", result_json(record.result));
   } else if (!options.common.quiet) {
@@ -287,7 +284,7 @@ void add_options(CLI::App& command, SimOptions& options) {
 
 void add_sim_command(CLI::App& root, int& exit_status) {
   const auto options = std::make_shared<SimOptions>();
-  CLI::App* command = root.add_subcommand("sim", "Sail a scenario on simulated devices");
+  CLI::App* command = root.add_subcommand("sim", kSimDescription);
   add_options(*command, *options);
   command->add_flag("--lockstep", options->lockstep,
                     "One thread on a virtual clock: deterministic, as fast as the machine allows");
@@ -301,8 +298,7 @@ void add_sim_command(CLI::App& root, int& exit_status) {
 void add_hil_command(CLI::App& root, int& exit_status) {
   const auto options = std::make_shared<SimOptions>();
   const auto bench = std::make_shared<BenchOptions>();
-  CLI::App* command = root.add_subcommand(
-      "hil", "Sail a scenario with the real drivers, on devices that are emulated to the byte");
+  CLI::App* command = root.add_subcommand("hil", kHilDescription);
   add_options(*command, *options);
   add_bench_options(*command, *bench);
   command->footer(

@@ -59,6 +59,7 @@ void add_manual(CLI::App& root, int& exit_status) {
     int surge = 0;
     int head = 0;
     double for_s = 0.0;
+    bool overrides_guard = false;
   };
   const auto options = std::make_shared<ManualOptions>();
   CLI::App* command = root.add_subcommand(
@@ -74,11 +75,15 @@ void add_manual(CLI::App& root, int& exit_status) {
   command->add_option("--for", options->for_s, "Say it again for so long")
       ->type_name("S")
       ->check(number_from(0, 3600));
+  command->add_flag("--override", options->overrides_guard,
+                    "Closer in than the guard lets it, for as long as this is said");
   add_boat_options(*command, *options);
   command->footer("Examples: lodesman manual 30 0 --for 5\n          lodesman manual -- -20 40");
   command->callback([options, &exit_status] {
-    const nlohmann::json word{
-        {"command", "manual"}, {"surge", options->surge}, {"head", options->head}};
+    const nlohmann::json word{{"command", "manual"},
+                              {"surge", options->surge},
+                              {"head", options->head},
+                              {"override", options->overrides_guard}};
     exit_status = or_say_why("manual", [&] { return move_stick(word, options->for_s, *options); });
   });
 }

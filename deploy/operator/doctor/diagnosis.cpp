@@ -83,6 +83,16 @@ namespace {
           "sudo apt-get install gnuplot-nox"};
 }
 
+[[nodiscard]] Finding judge_rt_test(const MachineFacts& facts) {
+  if (facts.rt_test_missing.empty()) {
+    return {"rt_test", Verdict::kInfo, "stress-ng and cyclictest are there for lodesman rt-test",
+            ""};
+  }
+  const std::string missing = fmt::format("{}", fmt::join(facts.rt_test_missing, " "));
+  return {"rt_test", Verdict::kInfo, "lodesman rt-test could do more with " + missing,
+          "sudo apt-get install " + missing};
+}
+
 [[nodiscard]] Finding judge_configuration(const MachineFacts& facts) {
   if (facts.configuration_error.empty()) {
     return {"configuration", Verdict::kOk,
@@ -146,6 +156,7 @@ std::vector<Finding> judge(const MachineFacts& facts) {
           judge_shm(facts),
           judge_leftovers(facts),
           judge_gnuplot(facts),
+          judge_rt_test(facts),
           judge_configuration(facts),
           judge_programs(facts),
           {"preempt_rt", Verdict::kInfo,

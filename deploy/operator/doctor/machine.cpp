@@ -153,6 +153,12 @@ MachineFacts measure_machine(const CommonOptions& common) {
   measure_lock(facts);
   measure_shm(facts);
   facts.gnuplot = is_in_path("gnuplot");
+  if (!is_in_path("stress-ng")) {
+    facts.rt_test_missing.emplace_back("stress-ng");
+  }
+  if (!is_in_path("cyclictest")) {
+    facts.rt_test_missing.emplace_back("rt-tests");
+  }
   measure_configuration(common, facts);
   std::error_code error;
   facts.program_directory = fs::read_symlink("/proc/self/exe", error).parent_path();

@@ -29,6 +29,7 @@ struct MachineFacts {
   std::vector<std::string> dead_segments;  // in /dev/shm, of programs that were killed
 
   bool gnuplot = false;
+  std::vector<std::string> rt_test_missing;  // packages that lodesman rt-test can make use of
 
   std::string configuration;        // the directory; empty where there is none
   std::string configuration_error;  // one line; empty where every shipped file is valid

@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 // Micrometres, microseconds: as fine as anything here is meant, and no 0.30000000000000004.
 constexpr int kResultDecimals = 6;
 constexpr int kPlanDecimals = 3;
+constexpr int kDegreeDecimals = 9;  // 0.1 mm
 
 // More than result.json can take: its reasons for plans are a handful.
 constexpr std::size_t kResultRoom_bytes = 8192;
@@ -147,8 +148,17 @@ std::string result_json(const RunResult& result) {
   for (const Notice& notice : result.notices) {
     json["notices"].push_back({{"t_s", number(notice.t_s, kPlanDecimals)}, {"text", notice.text}});
   }
+  json["guard_trips"] = Json::array();
+  for (const GuardTrip& trip : result.guard_trips) {
+    json["guard_trips"].push_back({{"t_s", number(trip.t_s, kPlanDecimals)},
+                                   {"reason", trip.reason},
+                                   {"distance_m", number(trip.distance_m, kPlanDecimals)},
+                                   {"speed_m_s", number(trip.speed_m_s, kPlanDecimals)}});
+  }
   json["real_time_factor"] = metric(result.real_time_factor);
   json["recording_hash"] = result.recording_hash ? Json(*result.recording_hash) : Json(nullptr);
+  json["origin_deg"] =
+      result.origin_deg ? point(*result.origin_deg, kDegreeDecimals) : Json(nullptr);
   json["version"] = result.version;
   if (result.outcome == "fault") {
     json["fault"] = result.fault;

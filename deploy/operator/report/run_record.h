@@ -68,6 +68,14 @@ struct Notice {
   std::string text;
 };
 
+// What the guard of the low level stopped the boat for.
+struct GuardTrip {
+  double t_s = 0.0;
+  std::string reason;
+  double distance_m = 0.0;
+  double speed_m_s = 0.0;
+};
+
 struct Percentiles {
   double p50 = 0.0;
   double p99 = 0.0;
@@ -104,9 +112,11 @@ struct RunResult {
   Percentiles ping_to_command_us;
   std::uint64_t overruns = 0;
   std::uint64_t stale_events = 0;
-  std::vector<Notice> notices;  // the first kMaxNotices
+  std::vector<Notice> notices;         // the first kMaxNotices
+  std::vector<GuardTrip> guard_trips;  // the first kMaxNotices
   double real_time_factor = 0.0;
-  std::optional<std::string> recording_hash;  // lock-step only
+  std::optional<std::string> recording_hash;        // lock-step only
+  std::optional<std::array<double, 2>> origin_deg;  // [deg] latitude, longitude of the world's
   std::string version;
   // Published and overwritten while nobody looked: lengths and counts above lack them. Not written.
   std::uint64_t truths_missed = 0;
@@ -116,6 +126,7 @@ struct RunResult {
 
 struct RunRecord {
   RunResult result;
+  std::int64_t started_utc_ns = 0;  // [ns] since 1970, by the receiver; 0: it told none
   // Of a long run some of them, see KeptRows and KeptPlans; the files have all.
   std::vector<TrajectoryRow> trajectory;
   std::vector<PlanRecord> plans;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deploy/operator/run/way_left.h"
+
 namespace lodesman::cli {
 namespace {
 

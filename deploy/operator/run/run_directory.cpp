@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/operator/run/run_directory.h"
 
+#include <fmt/chrono.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <ctime>
 #include <system_error>
 #include <vector>
 
 #include "deploy/operator/report/output_file.h"
 #include "mid_level/base/startup_error.h"
+#include "mid_level/base/utc.h"
 
 namespace lodesman::cli {
 namespace {
@@ -27,6 +30,7 @@ constexpr std::array kRunFiles{"config.toml",
                                "thrust.png",
                                "mission.mcap"};
 constexpr const char* kViews = "sonar";
+constexpr const char* kNoClock = "no-clock";
 
 [[noreturn]] void refuse(const fs::path& directory, const std::string& reason) {
   throw StartupError("--out: " + directory.string() + ": " + reason);
@@ -104,6 +108,35 @@ fs::path make_new_directory(const fs::path& name) {
     directory = name;
     directory += "-" + std::to_string(i);
   }
+  return directory;
+}
+
+std::string run_name(std::int64_t utc_ns, const std::string& scenario) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  const auto utc_s = static_cast<std::time_t>(utc_ns / kSecond_ns);
+  return (is_plausible_utc(utc_ns) ? fmt::format("{:%Y%m%dT%H%M%SZ}", fmt::gmtime(utc_s))
+                                   : std::string{kNoClock}) +
+         "-" + scenario;
+}
+
+bool has_no_clock(const fs::path& directory) {
+  return directory.filename().string().starts_with(kNoClock);
+}
+
+fs::path rename_by_clock(const fs::path& directory, std::int64_t utc_ns,
+                         const std::string& scenario) {
+  if (!is_plausible_utc(utc_ns)) {
+    return directory;
+  }
+  // Made first, so that the name is this run's alone: a directory may take the place of an empty
+  // one.
+  std::error_code error;
+  const fs::path known = make_new_directory(directory.parent_path() / run_name(utc_ns, scenario));
+  fs::rename(directory, known, error);
+  if (!error) {
+    return known;
+  }
+  fs::remove(known, error);
   return directory;
 }
 

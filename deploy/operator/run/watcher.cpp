@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "deploy/operator/report/plan_story.h"
+#include "deploy/operator/run/way_left.h"
 #include "mid_level/base/frames.h"
 #include "mid_level/geometry/sonar_view.h"
 
@@ -43,27 +44,18 @@ RunRecord blank_record(const Scenario& scenario, double waypoint_radius_m) {
   return record;
 }
 
-double way_left_m(const ScenarioMission& mission, std::size_t goal_index, const WorldPoint& from) {
-  double left_m = 0.0;
-  WorldPoint at = from;
-  const std::span<const Goal> waypoints = mission.waypoints();
-  for (const Goal& waypoint : waypoints.subspan(std::min(goal_index, waypoints.size()))) {
-    const WorldPoint to{{waypoint.x_m, waypoint.y_m}};
-    left_m += (to.xy_m - at.xy_m).norm();
-    at = to;
-  }
-  return left_m + (mission.goal().xy_m - at.xy_m).norm();
-}
-
 RunWatcher::RunWatcher(const Blackboard& board, const Blackboard& truth, const Scenario& scenario,
                        double waypoint_radius_m)
     : scenario_{scenario},
       record_{blank_record(scenario, waypoint_radius_m)},
       mission_{board.mission_status},
       truth_{truth.world_truth},
+      origin_{board.world_origin},
+      fix_{board.position_fix},
       state_{board.vehicle_state},
       helm_{board.helm_command},
       thrust_{board.thrust_applied},
+      guard_{board.guard_status},
       plan_{board.plan},
       path_{board.sonar_path},
       side_flips_{scenario.obstacles} {
@@ -75,6 +67,7 @@ RunWatcher::RunWatcher(const Blackboard& board, const Blackboard& truth, const S
 void RunWatcher::poll() {
   take_mission();
   take_commands();
+  take_guard();
   take_plans();
   take_truth();
   take_health();
@@ -122,7 +115,8 @@ void RunWatcher::take_commands() {
   }
   while (const auto* thrust = thrust_.next()) {
     const bool newly_stale = thrust->value.reason == ThrustReason::kStaleCommand &&
-                             applied_.reason != ThrustReason::kStaleCommand;
+                             applied_.reason != ThrustReason::kStaleCommand &&
+                             applied_.reason != ThrustReason::kGuarded;
     record_.result.stale_events += newly_stale ? 1 : 0;
     applied_ = thrust->value;
     if (applied_.reason == ThrustReason::kCommanded && applied_.plan_id > answered_plan_) {
@@ -259,6 +253,19 @@ void RunWatcher::end_at_truth() noexcept {
   record_.result.time_s = to_seconds(status_.ended - status_.first_started);
 }
 
+// Trips of a low level that was started anew count from 1 again.
+void RunWatcher::take_guard() {
+  while (const auto* guard = guard_.next()) {
+    const GuardStatus& now = guard->value;
+    const bool is_new = now.trips != trips_ && now.trips > 0;
+    trips_ = now.trips;
+    if (is_new && record_.result.guard_trips.size() < kMaxNotices) {
+      record_.result.guard_trips.push_back({scenario_time_of(now.tripped), to_string(now.reason),
+                                            now.distance_m, now.trip_speed_m_s});
+    }
+  }
+}
+
 void RunWatcher::take_health() {
   std::uint64_t overruns = 0;
   for (auto& reader : health_) {
@@ -368,6 +375,14 @@ RunRecord RunWatcher::finish() {
     result.final_m = {truth.x_m, truth.y_m};
     result.goal_error_m = std::hypot(truth.x_m - record_.goal_m[0], truth.y_m - record_.goal_m[1]);
     result.estimate_error_m = std::hypot(truth.x_m - estimate_.x_m, truth.y_m - estimate_.y_m);
+  }
+  if (const auto* fix = fix_.latest();
+      fix != nullptr && fix->value.utc_ns != 0 && status_.first_started != Time{}) {
+    record_.started_utc_ns =
+        fix->value.utc_ns - (fix->value.measured - status_.first_started).count();
+  }
+  if (const auto* origin = origin_.latest(); origin != nullptr) {
+    result.origin_deg = {origin->value.latitude_deg, origin->value.longitude_deg};
   }
   result.mean_speed_m_s = result.time_s > 0.0 ? result.path_length_m / result.time_s : 0.0;
   result.side_flips = side_flips_.flips().count;

@@ -31,10 +31,6 @@ struct RunProgress {
 // What is known of a run before anything has happened.
 [[nodiscard]] RunRecord blank_record(const Scenario& scenario, double waypoint_radius_m);
 
-// [m] from a place through the mission's waypoints from `goal_index` on to its goal.
-[[nodiscard]] double way_left_m(const ScenarioMission& mission, std::size_t goal_index,
-                                const WorldPoint& from);
-
 class RunWatcher {
  public:
   RunWatcher(const Blackboard& board, const Scenario& scenario, double waypoint_radius_m)
@@ -66,6 +62,7 @@ class RunWatcher {
   void take_plans();
   void take_rung(const PlanRecord& plan, Time stamp);
   void count_rung_until(double time_s);
+  void take_guard();
   void take_health();
   void add_truth(const Stamped<WorldTruth>& truth);
   void take_the_least(const WorldTruth& truth);
@@ -81,9 +78,12 @@ class RunWatcher {
 
   Reader<MissionStatus> mission_;
   Reader<WorldTruth> truth_;
+  Reader<WorldOrigin> origin_;
+  Reader<PositionFix> fix_;
   Reader<VehicleState> state_;
   Reader<HelmCommand> helm_;
   Reader<ThrustApplied> thrust_;
+  Reader<GuardStatus> guard_;
   Reader<Plan> plan_;
   Reader<SonarPath> path_;
   std::vector<Reader<TaskHealth>> health_;
@@ -104,6 +104,7 @@ class RunWatcher {
   bool ended_ = false;
   std::uint64_t answered_plan_ = 0;  // newest plan whose first command was timed
   bool was_stale_ = false;
+  std::uint64_t trips_ = 0;  // of the guard, as far as they are noted
   KeptRows rows_;
   KeptPlans plans_;
   SideFlipCounter side_flips_;

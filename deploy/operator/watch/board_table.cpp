@@ -116,6 +116,8 @@ constexpr const char* kPlain = "\x1b[0m";
       {"refused", count(&TaskHealth::refused)},
       {"last_step_ns", count(&TaskHealth::last_step_ns)},
       {"worst_step_ns", count(&TaskHealth::worst_step_ns)},
+      {"step_p99_us",
+       row.health ? Json(to_seconds(took_at_most(*row.health, 0.99)) * 1e6) : Json(nullptr)},
       {"worst_late_ns", count(&TaskHealth::worst_late_ns)},
       {"late_p99_us", row.health ? Json(usual_late_us(*row.health)) : Json(nullptr)},
       {"wakes", count(&TaskHealth::wakes)},

@@ -83,3 +83,29 @@ TEST_CASE("geodesy: there and back is the identity there too", "[mid_level][base
     }
   }
 }
+
+TEST_CASE("geodesy: a frame that is moved is the one that is made there", "[mid_level][base]") {
+  LocalFrame moved;
+  CHECK_FALSE(moved.is_fixed());
+  moved.move_to({-33.85, 151.2});
+  CHECK(moved.is_fixed());
+  const LocalFrame made{{-33.85, 151.2}};
+  const GeoPoint place{-33.86, 151.21};
+  CHECK((moved.to_world(place).xy_m - made.to_world(place).xy_m).norm() < 1e-9);
+  CHECK(moved.to_world({-33.85, 151.2}).xy_m.norm() < 1e-9);
+}
+
+TEST_CASE("geodesy: the rough distance is the plane's to a hundredth, and goes round the earth",
+          "[mid_level][base]") {
+  for (const Corner& corner : kCorners) {
+    const LocalFrame frame{corner.origin};
+    for (const auto& [x_m, y_m] : {std::pair{0.5, 0.0}, {-300.0, 400.0}, {0.0, 20000.0}}) {
+      INFO(corner.name << " " << x_m << " " << y_m);
+      CHECK(rough_distance_m(corner.origin, frame.to_geo({{x_m, y_m}})) ==
+            Approx(std::hypot(x_m, y_m)).epsilon(0.01));
+    }
+  }
+  CHECK(rough_distance_m({0.0, 0.0}, {0.0, 180.0}) == Approx(20015114.0).epsilon(1e-4));
+  CHECK(rough_distance_m({10.0, 179.999}, {10.0, -179.999}) == Approx(219.0).epsilon(0.01));
+  CHECK(std::isnan(rough_distance_m({std::nan(""), 0.0}, {0.0, 0.0})));
+}

@@ -23,6 +23,9 @@ TEST_CASE("check: shipped files are right, each as what it is", "[cli]") {
   const FileCheck overlay = check_file(shipped("deploy/config/paper.toml"), {});
   REQUIRE(overlay.error.empty());
   REQUIRE(overlay.kind == "configuration");
+  const FileCheck boat = check_file(shipped("deploy/config/boat.toml"), {});
+  REQUIRE(boat.error.empty());
+  REQUIRE(boat.kind == "configuration");
   const FileCheck vessel = check_file(shipped("hal_sim/vessels/paper-asv.toml"), {});
   REQUIRE(vessel.error.empty());
   REQUIRE(vessel.kind == "vessel");

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/boat/voyage.h"
 
+#include "deploy/boat/assembled_boat.h"
 #include "deploy/boat/named_scenario.h"
+#include "mid_level/base/startup_error.h"
 #include "tests/support/catch.h"
 
 using namespace lodesman;
@@ -24,9 +26,36 @@ Voyage simulated(const BoatConfig& config) {
 
 TEST_CASE("voyage: a simulated boat lies in its scenario's waters, a real one where its fixes say",
           "[boat]") {
-  CHECK(simulated(config_with({})).origin.latitude_deg == Approx(35.0));
-  CHECK(simulated(config_with({"simulation.vessel=estimate"})).origin.latitude_deg == Approx(60.0));
-  CHECK(voyage_of(config_with({}), nullptr).origin.latitude_deg == Approx(60.0));
+  CHECK(simulated(config_with({})).origin.value().latitude_deg == Approx(35.0));
+  CHECK(simulated(config_with({"simulation.vessel=estimate"})).origin.value().latitude_deg ==
+        Approx(60.0));
+  CHECK(voyage_of(config_with({}), nullptr).origin.value().latitude_deg == Approx(60.0));
+}
+
+TEST_CASE("voyage: at_start leaves the origin to the first fixes, a scenario's own stands",
+          "[boat]") {
+  CHECK_FALSE(voyage_of(config_with({"origin.at_start=true"}), nullptr).origin);
+  CHECK(simulated(config_with({"origin.at_start=true"})).origin.value().latitude_deg ==
+        Approx(35.0));
+}
+
+TEST_CASE("voyage: at_start is refused where no fixes are taken", "[boat]") {
+  const auto refusal_of = [](const std::string& position) {
+    const BoatConfig config = config_with(
+        {"devices.heading=nav440:/dev/a", "devices.sonar=sim:", "devices.position=" + position,
+         "devices.thrusters=none", "simulation.vessel=estimate",
+         "simulation.scenario=tank-straight", "origin.at_start=true"});
+    const std::optional<Scenario> scenario = simulated_scenario(config);
+    try {
+      require_sound(config, &*scenario);
+    } catch (const StartupError& error) {
+      return std::string{error.what()};
+    }
+    return std::string{};
+  };
+  CHECK(refusal_of("none").find("origin.at_start: the first fixes would be the origin") !=
+        std::string::npos);
+  CHECK(refusal_of("nmea:/dev/b").empty());
 }
 
 TEST_CASE("voyage: the position comes from what there is, unless the configuration says from where",

@@ -36,6 +36,7 @@ TEST_CASE("mission file: a goal is enough, the rest comes from the configuration
   CHECK(mission.goal_radius_m == Approx(0.5));
   CHECK(mission.speed_m_s == Approx(0.42));
   CHECK(mission.link_lost == LinkLost::kGoOn);
+  CHECK(mission.on_restart == OnRestart::kHold);
   CHECK(mission.area_count == 0);
 }
 
@@ -49,6 +50,7 @@ speed_m_s = 0.74
 legs = "free"
 link_lost = "return"
 link_lost_after_s = 8.0
+on_restart = "resume"
 fence_m = [[-9, -9], [9, -9], [9, 30], [-9, 30]]
 keep_out_m = [[[1, 1], [2, 1], [2, 2]], [[4, 4], [5, 4], [5, 5]]]
 )");
@@ -57,6 +59,7 @@ keep_out_m = [[[1, 1], [2, 1], [2, 2]], [[4, 4], [5, 4], [5, 5]]]
   CHECK(mission.speed_m_s == Approx(0.74));
   CHECK(mission.link_lost == LinkLost::kReturn);
   CHECK(mission.link_lost_after == from_seconds(8));
+  CHECK(mission.on_restart == OnRestart::kResume);
   REQUIRE(mission.area_count == 3);
   CHECK(mission.areas[0].kind == AreaKind::kFence);
   CHECK(mission.areas[0].corner_count == 4);
@@ -87,6 +90,8 @@ TEST_CASE("mission file: what is wrong is refused with its line", "[config]") {
             .starts_with("m.toml:2: fence_m: must be 3 to 31 points"));
   CHECK(refusal_of("goal_m = [0, 1]\nlink_lost = \"panic\"")
             .starts_with("m.toml:2: link_lost: must be one of"));
+  CHECK(refusal_of("goal_m = [0, 1]\non_restart = \"go on\"")
+            .starts_with("m.toml:2: on_restart: must be one of"));
   CHECK(refusal_of("goal_m = [0, inf]").starts_with("m.toml:1: goal_m"));
 }
 
@@ -95,8 +100,6 @@ TEST_CASE("mission file: what is not done yet is refused, not taken and forgotte
         "m.toml:2: legs: only \"free\" is done yet");
   CHECK(refusal_of("goal_m = [0, 1]\nbattery_low = \"return\"") ==
         "m.toml:2: battery_low: is not done yet: leave it out");
-  CHECK(refusal_of("goal_m = [0, 1]\non_restart = \"hold\"") ==
-        "m.toml:2: on_restart: is not done yet: leave it out");
 }
 
 TEST_CASE("speed table: read in rising order, else refused with its line", "[config]") {
@@ -109,4 +112,22 @@ TEST_CASE("speed table: read in rising order, else refused with its line", "[con
     INFO(wrong);
     CHECK_THROWS_AS(read_table(wrong), StartupError);
   }
+}
+
+TEST_CASE("mission: degrees are refused until the world's origin is known, metres are not",
+          "[mid_level][config]") {
+  const LocalFrame unknown;
+  const auto refused = [&](const char* text) {
+    try {
+      (void)read_mission_text(text, "m.toml", defaults(), &unknown);
+    } catch (const StartupError& error) {
+      return std::string{error.what()};
+    }
+    return std::string{};
+  };
+  const std::string why = ": the origin of the boat's world is not fixed yet: no good fix has come";
+  CHECK(refused("goal_deg = [35.0, 139.0]") == "m.toml:1: goal_deg" + why);
+  CHECK(refused("goal_m = [0.0, 9.0]\nwaypoints_deg = [[35.0, 139.0]]") ==
+        "m.toml:2: waypoints_deg" + why);
+  CHECK(refused("goal_m = [0.0, 9.0]").empty());
 }

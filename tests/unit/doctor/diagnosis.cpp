@@ -73,6 +73,14 @@ TEST_CASE("doctor: what only makes a run worse is a warning", "[cli]") {
   REQUIRE(finding(facts, "memory_lock").verdict == Verdict::kOk);
 }
 
+TEST_CASE("doctor: what rt-test could make use of is named and wrong with nothing", "[cli]") {
+  MachineFacts facts = healthy();
+  CHECK(finding(facts, "rt_test").remedy.empty());
+  facts.rt_test_missing = {"stress-ng", "rt-tests"};
+  CHECK(finding(facts, "rt_test").verdict == Verdict::kInfo);
+  CHECK(finding(facts, "rt_test").remedy == "sudo apt-get install stress-ng rt-tests");
+}
+
 TEST_CASE("doctor: what keeps the boat ashore is bad", "[cli]") {
   MachineFacts no_shm = healthy();
   no_shm.shm_writable = false;
@@ -97,7 +105,7 @@ TEST_CASE("doctor: this machine can be measured", "[cli]") {
   REQUIRE(facts.segment_bytes > kMiB);
   REQUIRE(facts.lock_needed_bytes > facts.segment_bytes);
   REQUIRE(facts.configuration_error.empty());
-  REQUIRE(judge(facts).size() == 9);
+  REQUIRE(judge(facts).size() == 10);
 }
 
 }  // namespace

@@ -74,6 +74,67 @@ TEST_CASE("vehicle model: half the step moves it by less than a centimetre in a 
   CHECK((coarse.position.xy_m - fine.position.xy_m).norm() < 0.01);
 }
 
+TEST_CASE("vehicle model: long steps end where short ones do", "[high_level][estimate]") {
+  const VehicleModel model{paper_hull(), paper_speeds()};
+  for (const int surge_ref : {-31, 16, 57, 91}) {
+    for (const int head_ref : {-100, 20, 60}) {
+      const ThrustForces forces = model.forces(surge_ref, head_ref);
+      VehicleMotion long_way;
+      VehicleMotion short_way;
+      for (int i = 0; i < 80; ++i) {
+        long_way = model.carried_on(long_way, forces, {0.2, 0.1}, 0.25);
+      }
+      for (int i = 0; i < 2000; ++i) {
+        short_way = model.advanced(short_way, forces, {0.2, 0.1}, 0.01);
+      }
+      INFO(surge_ref << " " << head_ref);
+      // Of ways of 7 to 22 m and turns of up to two rounds.
+      CHECK((long_way.position.xy_m - short_way.position.xy_m).norm() < 0.1);
+      CHECK(std::abs(long_way.heading_rad - short_way.heading_rad) < 0.02);
+      CHECK((long_way.velocity - short_way.velocity).norm() < 0.002);
+    }
+  }
+}
+
+TEST_CASE("vehicle model: long steps are stable however strong the drag",
+          "[high_level][estimate]") {
+  VehicleModelParameters hull = paper_hull();
+  hull.sway_drag_n_s_per_m = 1e5;
+  hull.yaw_drag_n_m_s = 1e4;
+  hull.surge_drag_n_s_per_m = 1e4;
+  const VehicleModel model{hull, paper_speeds()};
+  VehicleMotion motion;
+  motion.velocity = {1.0, 0.5, 0.5};
+  for (int i = 0; i < 100; ++i) {
+    motion = model.carried_on(motion, model.forces(31, 30), Eigen::Vector2d::Zero(), 1.0);
+    REQUIRE(motion.velocity.norm() < 2.0);
+  }
+  CHECK(motion.velocity[0] == Approx(paper_speeds().speed_m_s(31)).epsilon(0.01));
+  CHECK(std::abs(motion.velocity[1]) < 0.001);
+}
+
+TEST_CASE("vehicle model: it stops in the way that it says, and turns in no longer one",
+          "[high_level][estimate]") {
+  const VehicleModel model{paper_hull(), paper_speeds()};
+  const Eigen::Vector2d still = Eigen::Vector2d::Zero();
+  for (const int surge_ref : {8, 31, 57, 91}) {
+    const double speed_m_s = paper_speeds().speed_m_s(surge_ref);
+    VehicleMotion stopping;
+    stopping.velocity[0] = speed_m_s;
+    for (int i = 0; i < 3000; ++i) {
+      stopping = model.advanced(stopping, model.forces(0, 0), still, 0.01);
+    }
+    CHECK(stopping.position.xy_m.y() == Approx(model.stopping_way_m(speed_m_s)).epsilon(0.01));
+    VehicleMotion turning;
+    turning.velocity[0] = speed_m_s;
+    while (turning.heading_rad < to_rad(90.0)) {
+      turning = model.advanced(turning, model.forces(surge_ref, 100), still, 0.01);
+    }
+    CHECK(turning.position.xy_m.y() < 1.01 * model.turning_way_m(speed_m_s));
+    CHECK(turning.position.xy_m.y() > 0.8 * model.turning_way_m(speed_m_s));
+  }
+}
+
 TEST_CASE("vehicle model: the slope is that of the acceleration", "[high_level][estimate]") {
   const VehicleModel model{paper_hull(), paper_speeds()};
   const ThrustForces forces = model.forces(40, -15);

@@ -50,16 +50,15 @@ Voyage sail(const Tracks& tracks, double duration_s) {
   OwnMotion own = northward_at(0.0);
   for (double t_s = 0.0; t_s < duration_s; t_s += kStep_s) {
     const Choice& choice = chooses->choose(at_s(t_s), own, route, tracks, 1.0, false);
-    const RoutePlace place = nearest_place(route, own.p_W, {}, 1e9);
-    const Vec aim = point_ahead(route, place, r.look_ahead_m) - own.p_W;
-    const double course = std::atan2(aim.x(), aim.y()) + choice.manoeuvre.offset_rad;
-    const double turn = std::clamp(r.heading_gain_per_s * wrap_to_pi(course - own.heading_rad),
-                                   -r.turn_rate_max_rad_s, r.turn_rate_max_rad_s);
-    own.heading_rad += turn * kStep_s;
-    own.surge_m_s +=
-        (choice.manoeuvre.speed_share * r.speed_max_m_s - own.surge_m_s) * kStep_s / r.surge_time_s;
     const Vec before = own.p_W;
-    own.p_W += own.surge_m_s * kStep_s * Vec{std::sin(own.heading_rad), std::cos(own.heading_rad)};
+    Rollout rollout{r, route, own, choice.manoeuvre, 1.0, false};
+    rollout.sail(kStep_s);
+    const VehicleMotion& sailed = rollout.motion();
+    own.p_W = sailed.position.xy_m;
+    own.heading_rad = sailed.heading_rad;
+    own.surge_m_s = sailed.velocity[0];
+    own.sway_m_s = sailed.velocity[1];
+    own.yaw_rate_rad_s = sailed.velocity[2];
     for (std::uint32_t i = 0; i < tracks.count; ++i) {
       const Track& track = tracks.tracks[i];
       const Obstacle now =
@@ -150,8 +149,7 @@ TEST_CASE("manoeuvre: it stops before a way that is blocked all round", "[high_l
 TEST_CASE("manoeuvre: where nothing slower keeps clear it flees, and only there",
           "[high_level][guidance]") {
   // A slow boat, and something faster that comes up on its beam.
-  VehicleResponse slow = default_response();
-  slow.speed_max_m_s = 0.2;
+  const VehicleResponse slow = response_at({20, 0.2});
   ManoeuvreOptions options = default_manoeuvres();
   const auto choice_with = [&](double flight_speed_m_s, const Tracks& tracks) {
     options.flight_speed_m_s = flight_speed_m_s;

@@ -68,13 +68,15 @@ inline const PilotOptions& shipped_pilot() { return *shipped_options().planner.r
 
 inline ZoneOptions default_zones() { return shipped_pilot().zones; }
 
-// At 1 m/s, where nothing flies faster.
-inline VehicleResponse default_response() {
+inline VehicleResponse response_at(const Cruise& cruise) {
   VehicleResponse response = shipped_pilot().response;
-  response.speed_max_m_s = 1.0;
-  response.look_ahead_m += shipped_options().controller.look_ahead_s * response.speed_max_m_s;
+  response.cruise = cruise;
+  response.look_ahead_m += shipped_options().controller.look_ahead_s * cruise.speed_m_s;
   return response;
 }
+
+// At 1 m/s, where nothing flies faster.
+inline VehicleResponse default_response() { return response_at({100, 1.0}); }
 
 // Flight is asked for by the tests that are about it.
 inline ManoeuvreOptions default_manoeuvres() {

@@ -14,9 +14,16 @@ namespace {
 
 using RequestPtr = std::unique_ptr<PathRequest>;
 
+// By hand: the shipped boat at 1 m/s needs 2.136 m to stop and 3.111 m to turn, at 0.5 m/s 1.107 m
+// and 1.556 m; 0.1 and 0.06 of these.
+constexpr double kFor1_m_s_m = 0.4003;
+constexpr double kForHalf_m_s_m = 0.2041;
+[[nodiscard]] Approx about(double wanted_m) { return Approx(wanted_m).margin(0.0002); }
+
 RequestPtr zones_of(const Tracks& tracks, double speed_m_s = 1.0, double now_s = 0.0) {
   auto request = std::make_unique<PathRequest>();
-  make_zones(default_zones(), tracks, at_s(now_s), {0.0, 0.0}, speed_m_s, *request);
+  make_zones(default_zones(), default_response().model, tracks, at_s(now_s), {0.0, 0.0}, speed_m_s,
+             *request);
   return request;
 }
 
@@ -43,28 +50,40 @@ TEST_CASE("zones: a zone is shape, hull and a margin that grows with the speed",
   const auto slow = zones_of(tracks_of({disc_track(4, 0, 10)}), 0.5);
   REQUIRE(slow->zone_count == 1);
   CHECK(slow->zones[0].shape.id == 4);
-  CHECK(slow->zones[0].shape.protection_first_m == Approx(0.5 + 0.6 + 0.8 + 0.2));
-  CHECK(slow->zones[0].shape.protection_second_m == Approx(2.1));
-  CHECK(slow->zones[0].give_m == Approx(1.6 - 0.6 - 0.45));
+  CHECK(slow->zones[0].shape.protection_first_m == about(0.5 + 0.6 + 0.8 + kForHalf_m_s_m));
+  CHECK(slow->zones[0].shape.protection_second_m == about(1.9 + kForHalf_m_s_m));
+  CHECK(slow->zones[0].give_m == about(0.8 + kForHalf_m_s_m - 0.45));
   const auto fast = zones_of(tracks_of({disc_track(4, 0, 10)}), 1.0);
-  CHECK(fast->zones[0].shape.protection_first_m == Approx(2.3));
+  CHECK(fast->zones[0].shape.protection_first_m == about(1.9 + kFor1_m_s_m));
 }
 
-TEST_CASE("zones: the margin grows with the circle that a vehicle needs to turn",
+TEST_CASE("zones: the margin grows with the ways that the vehicle model needs to stop and to turn",
           "[high_level][guidance]") {
-  ZoneOptions nimble = default_zones();
-  ZoneOptions ponderous = nimble;
-  ponderous.turn_rate_max_rad_s = nimble.turn_rate_max_rad_s / 4.0;
-  const double more_m = nimble.margin_per_turning_radius * 3.0 / nimble.turn_rate_max_rad_s;
-  CHECK(sure_zone_m(ponderous, 1.0) - sure_zone_m(nimble, 1.0) == Approx(more_m));
-  CHECK(sure_zone_m(ponderous, 0.5) - sure_zone_m(nimble, 0.5) == Approx(more_m / 2.0));
-  CHECK(sure_zone_m(ponderous, 0.0) == Approx(sure_zone_m(nimble, 0.0)));
+  const ZoneOptions options = default_zones();
+  const SpeedTable speeds = SpeedTable::proportional(0.01);
+  const VehicleModelParameters hull = shipped_options().estimator.filter.vehicle;
+  VehicleModelParameters heavy = hull;
+  heavy.added_mass_surge_kg = hull.mass_kg;  // twice as much to stop
+  VehicleModelParameters ponderous = hull;
+  ponderous.turning_n_m_per_head_ref /= 4.0;
+  const VehicleModel as_is{hull, speeds};
+  for (const double speed_m_s : {0.25, 0.5, 1.0}) {
+    const double zone_m = sure_zone_m(options, as_is, speed_m_s);
+    CHECK(sure_zone_m(options, {heavy, speeds}, speed_m_s) - zone_m ==
+          Approx(options.margin_per_stopping_way * as_is.stopping_way_m(speed_m_s)));
+    const VehicleModel slow_to_turn{ponderous, speeds};
+    const double more_m = slow_to_turn.turning_way_m(speed_m_s) - as_is.turning_way_m(speed_m_s);
+    CHECK(more_m > as_is.turning_way_m(speed_m_s));
+    CHECK(sure_zone_m(options, slow_to_turn, speed_m_s) - zone_m ==
+          Approx(options.margin_per_turning_way * more_m));
+  }
+  CHECK(sure_zone_m(options, {heavy, speeds}, 0.0) == Approx(sure_zone_m(options, as_is, 0.0)));
 }
 
 TEST_CASE("zones: a wall's zone is its margin alone", "[high_level][guidance]") {
   const auto request = zones_of(tracks_of({wall_track(2, {{-5, 8}, {5, 8}})}));
   REQUIRE(request->zone_count == 1);
-  CHECK(request->zones[0].shape.protection_first_m == Approx(1.8));
+  CHECK(request->zones[0].shape.protection_first_m == about(1.4 + kFor1_m_s_m));
 }
 
 TEST_CASE("zones: doubt of place and, with age, of velocity makes them larger, up to a limit",
@@ -73,12 +92,13 @@ TEST_CASE("zones: doubt of place and, with age, of velocity makes them larger, u
   track.place_xx_m2 = 0.01;
   track.velocity_yy_m2_s2 = 0.04;
   const auto at_once = zones_of(tracks_of({track}));
-  CHECK(at_once->zones[0].shape.protection_first_m == Approx(2.3 + 0.2));
-  CHECK(at_once->zones[0].give_m == Approx(0.75 + 0.2));
+  CHECK(at_once->zones[0].shape.protection_first_m == about(1.9 + kFor1_m_s_m + 0.2));
+  CHECK(at_once->zones[0].give_m == about(0.35 + kFor1_m_s_m + 0.2));
   const auto later = zones_of(tracks_of({track}), 1.0, 2.0);
-  CHECK(later->zones[0].shape.protection_first_m == Approx(2.3 + 2.0 * std::sqrt(0.01 + 0.16)));
+  CHECK(later->zones[0].shape.protection_first_m ==
+        about(1.9 + kFor1_m_s_m + 2.0 * std::sqrt(0.01 + 0.16)));
   const auto long_after = zones_of(tracks_of({track}), 1.0, 100.0);
-  CHECK(long_after->zones[0].shape.protection_first_m == Approx(2.3 + 1.5));
+  CHECK(long_after->zones[0].shape.protection_first_m == about(1.9 + kFor1_m_s_m + 1.5));
 }
 
 TEST_CASE("zones: what moves faster than the stated share of our speed has none",
@@ -94,7 +114,8 @@ TEST_CASE("zones: a velocity that may be noise is none", "[high_level][guidance]
   const auto placed_x_m = [&](double velocity_sigma_m_s) {
     track.velocity_xx_m2_s2 = track.velocity_yy_m2_s2 = velocity_sigma_m_s * velocity_sigma_m_s;
     PathRequest request;
-    make_zones(default_zones(), tracks_of({track}), at_s(0), {0, 0}, 1.0, request);
+    make_zones(default_zones(), default_response().model, tracks_of({track}), at_s(0), {0, 0}, 1.0,
+               request);
     return request.zones[0].shape.centre_x_m;
   };
   CHECK(placed_x_m(0.02) > 0.5);
@@ -171,8 +192,8 @@ TEST_CASE("zones: doubt of the own place widens them as that of a track does",
   doubtful.place_xx_m2 = doubtful.place_yy_m2 = 0.16;
   const auto zone_of = [](const Track& track, double own_sigma_m) {
     auto request = std::make_unique<PathRequest>();
-    make_zones(default_zones(), tracks_of({track}), at_s(0), {0.0, 0.0}, 0.5, *request,
-               own_sigma_m);
+    make_zones(default_zones(), default_response().model, tracks_of({track}), at_s(0), {0.0, 0.0},
+               0.5, *request, own_sigma_m);
     return request->zones[0].shape.protection_first_m;
   };
   const Track sure = disc_track(1, 0.0, 10.0);

@@ -290,13 +290,12 @@ TEST_CASE("command socket: what the handler throws ends that session alone",
   CHECK(ask(socket.port(), line_of("abort")) == done("abort"));
 }
 
-TEST_CASE("command socket: it stays on loopback, wants a token and needs a free port",
+TEST_CASE("command socket: beyond loopback it wants a lasting token, always one and a free port",
           "[high_level][mission]") {
   for (const char* address : {"0.0.0.0", "::", "192.0.2.1"}) {
     CHECK_THROWS_WITH((CommandSocket{{address, 0, {kToken, "", ""}}, echo()}),
                       std::string{"command_socket.address: "} + address +
-                          " is not loopback, and the token would cross the network in the clear; "
-                          "use loopback and a tunnel");
+                          " is not loopback, and that wants a token_file");
   }
   CHECK_THROWS_AS((CommandSocket{{"nowhere", 0, {kToken, "", ""}}, echo()}), StartupError);
   CHECK_THROWS_AS((CommandSocket{{"127.0.0.1", 0, {}}, echo()}), StartupError);

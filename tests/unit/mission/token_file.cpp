@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <set>
 
 #include "mid_level/base/startup_error.h"
@@ -141,4 +142,55 @@ TEST_CASE("token file: a file that others can read or change, or that holds no t
   CHECK_THROWS_WITH(
       read_token(place.path() / "none"),
       (place.path() / "none").string() + ":1: token: cannot be read: No such file or directory");
+}
+
+TEST_CASE("token file: one that lasts is made once, for its owner and the group",
+          "[high_level][mission]") {
+  const Place place;
+  const fs::path file = place.path() / "boat.token";
+  make_token_file(file);
+  CHECK((mode_of(file) & 0137U) == 0);  // at most rw-r-----
+  const CommandTokens tokens = read_lasting_tokens(file, Reach::kNetwork);
+  for (const std::string& token : {tokens.command, tokens.abort, tokens.view}) {
+    CHECK(is_random_token(token));
+  }
+  CHECK(tokens.command != tokens.abort);
+  CHECK_THROWS_WITH(make_token_file(file),
+                    file.string() + ":1: token: cannot be made: File exists");
+  CHECK(read_token(file) == tokens.command);
+  CHECK_THROWS_AS(make_token_file(place.path() / "no" / "boat.token"), StartupError);
+}
+
+TEST_CASE("token file: beyond loopback a token is 64 hexadecimal digits, each that there is",
+          "[high_level][mission]") {
+  const Place place;
+  const std::string good(64, 'a');
+  const std::string phrase = "correct horse battery staple, and more";
+  CHECK(read_lasting_tokens(place.file("phrase", phrase, 0600), Reach::kLoopback).command ==
+        phrase);
+  CHECK_THROWS_WITH(read_lasting_tokens(place.path() / "phrase", Reach::kNetwork),
+                    (place.path() / "phrase").string() +
+                        ":1: token: must be 64 hexadecimal digits beyond loopback, by chance: "
+                        "lodesman token --new FILE makes some");
+  CHECK(read_lasting_tokens(place.file("one", good + "\n", 0600), Reach::kNetwork).abort.empty());
+  CHECK_THROWS_AS(
+      read_lasting_tokens(place.file("two", good + "\n" + phrase + "\n", 0600), Reach::kNetwork),
+      StartupError);
+  CHECK_THROWS_AS(
+      read_lasting_tokens(place.file("upper", std::string(64, 'A'), 0600), Reach::kNetwork),
+      StartupError);
+}
+
+TEST_CASE("token file: a boat goes by none that belongs to another user", "[high_level][mission]") {
+  const Place place;
+  const fs::path file = place.file("boat.token", std::string(64, 'a'), 0640);
+  CHECK(read_lasting_tokens(file, Reach::kNetwork).command == std::string(64, 'a'));
+  if (geteuid() != 0) {
+    std::cout << "skipped: no right to give a file away\n";
+    return;
+  }
+  REQUIRE(chown(file.c_str(), 65534, static_cast<gid_t>(-1)) == 0);
+  CHECK_THROWS_WITH(read_lasting_tokens(file, Reach::kNetwork),
+                    file.string() + ":1: token: belongs to another user; chown root mends that");
+  CHECK(read_token(file) == std::string(64, 'a'));  // a client's own affair
 }

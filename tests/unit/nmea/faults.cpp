@@ -50,7 +50,7 @@ TEST_CASE("nmea: G4: one time is one fix, however often it is said", "[nmea]") {
   Fixed before = fix;
   before.second_of_day -= 1.0;
   CHECK(wired.fixes_of(before).empty());
-  CHECK(wired.driver.counts().fixes == 1);
+  CHECK(wired.driver.counts().given.fixes == 1);
   CHECK(wired.driver.counts().repeated >= 1);
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("nmea: G10: a date 1024 weeks back changes no stamp and is given to no
     CHECK((all[i].utc_ns == 0) == (i >= 4 && i < 8));
     CHECK(all[i].measured == all[0].measured + seconds{i});
   }
-  CHECK(wired.driver.counts().wrong_dates == 4);
+  CHECK(wired.driver.counts().given.wrong_dates == 4);
 }
 
 TEST_CASE("nmea: G10: a receiver that starts with such a date gives positions", "[nmea]") {
@@ -172,7 +172,7 @@ TEST_CASE("nmea: C3: a receiver that holds its position at rest is not frozen", 
     fix.second_of_day += 1.0;
     CHECK(wired.fixes_of(fix).size() == 1);
   }
-  CHECK(wired.driver.counts().frozen == 0);
+  CHECK(wired.driver.counts().given.frozen == 0);
 }
 
 TEST_CASE("nmea: a receiver whose time goes back by its leap seconds is believed again", "[nmea]") {

@@ -94,8 +94,10 @@ const std::vector<std::string> kResultKeys{"scenario",
                                            "overruns",
                                            "stale_events",
                                            "notices",
+                                           "guard_trips",
                                            "real_time_factor",
                                            "recording_hash",
+                                           "origin_deg",
                                            "version"};
 
 }  // namespace
@@ -140,7 +142,7 @@ TEST_CASE("result.json: what there is not is null, and no number is infinite", "
   const Json json = Json::parse(text);
   for (const char* key :
        {"min_inoffensive_distance_m", "time_of_min_inoffensive_distance_s", "min_hull_clearance_m",
-        "recording_hash", "mean_speed_m_s", "goal_error_m"}) {
+        "recording_hash", "mean_speed_m_s", "goal_error_m", "origin_deg"}) {
     INFO(key);
     CHECK(json[key].is_null());
   }
@@ -157,6 +159,7 @@ TEST_CASE("result.json: values arrive, and foreign bytes do not break the docume
   result.rung_s = {{"aside", 2.5}, {"on_route", 30.0}};
   result.plan_time_us = {.p50 = 1.5, .p99 = 2.5, .max = 3.5};
   result.recording_hash = "0123456789abcdef";
+  result.origin_deg = {48.123456789, -7.5};
   const Json json = Json::parse(cli::result_json(result));
   CHECK(json["final_m"] == Json::array({-0.25, 19.68}));
   CHECK(json["min_inoffensive_distance_m"] == -0.1);
@@ -164,6 +167,7 @@ TEST_CASE("result.json: values arrive, and foreign bytes do not break the docume
   CHECK(json["rungs"] == Json({{"aside", 2.5}, {"on_route", 30.0}}));
   CHECK(json["plan_time_us"]["p99"] == 2.5);
   CHECK(json["recording_hash"] == "0123456789abcdef");
+  CHECK(json["origin_deg"] == Json::array({48.123456789, -7.5}));
 }
 
 TEST_CASE("trajectory.csv: the contract's header, fixed decimals, no infinity", "[report]") {

@@ -6,6 +6,7 @@
 #include "deploy/boat/configuration.h"
 #include "deploy/boat/named_scenario.h"
 #include "deploy/boat/voyage.h"
+#include "deploy/operator/run/way_left.h"
 #include "tests/support/full_pipe.h"
 
 using namespace lodesman;

@@ -84,3 +84,31 @@ TEST_CASE("run directory: what is no directory is refused", "[run]") {
   CHECK_THROWS_AS(cli::make_named_directory(place.path() / "file", true), StartupError);
   CHECK_THROWS_AS(cli::make_named_directory(place.path() / "file" / "under", true), StartupError);
 }
+
+TEST_CASE("run directory: a run is named by its time, one without a clock says so", "[run]") {
+  constexpr std::int64_t kNow_ns = 1'795'804'200'000'000'000;
+  CHECK(cli::run_name(kNow_ns, "a") == "20261127T183000Z-a");
+  CHECK(cli::run_name(0, "a") == "no-clock-a");
+  CHECK(cli::run_name(1'735'689'599'999'999'999, "a") == "no-clock-a");
+  CHECK(cli::has_no_clock("runs/no-clock-a-2"));
+  CHECK_FALSE(cli::has_no_clock("runs/20261127T183000Z-no-clock"));
+}
+
+TEST_CASE("run directory: one without a clock takes the time that was learnt, and no other's name",
+          "[run]") {
+  constexpr std::int64_t kThen_ns = 1'795'804'200'000'000'000;
+  const testing::TemporaryDirectory place;
+  const fs::path other = place.path() / "20261127T183000Z-a";
+  touch(other / "result.json");
+  const fs::path made = cli::make_new_directory(place.path() / cli::run_name(0, "a"));
+  touch(made / "trajectory.csv");
+  CHECK(cli::rename_by_clock(made, 0, "a") == made);
+  const fs::path known = cli::rename_by_clock(made, kThen_ns, "a");
+  CHECK(known == place.path() / "20261127T183000Z-a-2");
+  CHECK(fs::exists(known / "trajectory.csv"));
+  CHECK(fs::exists(other / "result.json"));
+  CHECK_FALSE(fs::exists(made));
+  // What is no more cannot be renamed: nothing is left behind.
+  CHECK(cli::rename_by_clock(made, kThen_ns, "a") == made);
+  CHECK_FALSE(fs::exists(place.path() / "20261127T183000Z-a-3"));
+}

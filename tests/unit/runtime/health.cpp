@@ -86,6 +86,8 @@ TEST_CASE("health: steps, the latest of them and missed periods are published on
   CHECK(newest->value.fifo_priority == 60);
   CHECK(newest->value.late[0] == 150);
   CHECK(newest->value.late[late_bucket(milliseconds{3})] == 1);
+  CHECK(newest->value.took[late_bucket(milliseconds{1})] == 150);
+  CHECK(newest->value.took[late_bucket(milliseconds{90})] == 1);
 }
 
 TEST_CASE("health watch: a task is silent when its word is overdue", "[mid_level][runtime]") {
@@ -116,6 +118,16 @@ TEST_CASE("health watch: another run's words and those yet to come tell nothing"
   CHECK(run.watch.silent(kStart + kAhrsLimit).empty());
   run.ahrs.publish({}, kStart + seconds{3600});
   CHECK(run.watch.silent(kStart + kAhrsLimit + milliseconds{1}).size() == 1);
+}
+
+TEST_CASE("health watch: all step once each has told of itself in this run",
+          "[mid_level][runtime]") {
+  Watched run;
+  run.ahrs.publish({}, kStart - seconds{1});
+  run.position.publish({}, kStart + milliseconds{1});
+  CHECK_FALSE(run.watch.all_step(kStart + milliseconds{2}));
+  run.ahrs.publish({}, kStart + milliseconds{3});
+  CHECK(run.watch.all_step(kStart + milliseconds{4}));
 }
 
 TEST_CASE("health watch: an observer calls silent only who has spoken", "[mid_level][runtime]") {

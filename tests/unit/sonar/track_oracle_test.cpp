@@ -71,6 +71,20 @@ std::uint32_t seen_at_once(const Scene& scene) { return Watch{scene}.see(0.0).co
 
 }  // namespace
 
+TEST_CASE("track_oracle: one that comes after goes on with what was known, for as long",
+          "[low_level][sonar]") {
+  const Scene scene{buoy(0, 10), quay(20), buoy(0, -10)};
+  Watch before{scene};
+  REQUIRE(before.see(0.0).count == 2);
+  Watch after{scene};
+  after.oracle.resume(*before.tracks);
+  // It looks the other way.
+  const Tracks& known = after.see(5.0, 180.0);
+  REQUIRE(known.count == 3);
+  CHECK(known.tracks[0].last_seen == before.tracks->tracks[0].last_seen);
+  CHECK(after.see(10.1, 180.0).count == 1);  // longer ago than its memory
+}
+
 TEST_CASE("track_oracle: it sees in the fan and within range, and nowhere else",
           "[low_level][sonar]") {
   const auto at_bearing = [](double bearing_deg) {

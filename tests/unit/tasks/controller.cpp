@@ -9,7 +9,7 @@ namespace {
 
 [[nodiscard]] ControllerOptions paper_options() {
   ControllerOptions options;
-  options.heading_gain_per_deg = 3.5;
+  options.steering.heading_gain_per_deg = 3.5;
   options.waypoint_radius_m = 0.5;
   return options;
 }
@@ -63,6 +63,18 @@ struct Controller {
   Writer<Plan> plan{board->plan, Role::kHigh, "plan"};
   Reader<HelmCommand> helm{board->helm_command};
 };
+
+TEST_CASE("controller: a plan from before its program is not steered by", "[high_level][tasks]") {
+  Controller controller;
+  controller.all_is_well(kStart);
+  const Time later = kStart + milliseconds{50};
+  controller.mission_is(MissionState::kUnderWay, later);
+  controller.estimate(later);
+  controller.attitude.publish({later, 0.0, 0.0}, later);
+  controller.check_neutral(later, HelmReason::kNoWaypoints);
+  controller.plan_to(10.0, later);
+  CHECK(controller.after_step(later).reason == HelmReason::kTracking);
+}
 
 TEST_CASE("controller task: under way it steers for the waypoint ahead", "[high_level][tasks]") {
   Controller controller;

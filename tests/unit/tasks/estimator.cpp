@@ -16,7 +16,7 @@ namespace {
   options.dead_reckoning = {milliseconds{200}, SpeedTable::proportional(0.01375)};
   options.filter = filter_options();
   options.current_time = seconds{30};
-  options.origin = {35.0, 139.0};
+  options.origin = GeoPoint{35.0, 139.0};
   return options;
 }
 
@@ -45,7 +45,25 @@ struct Estimator {
   Writer<PositionFix> position{board->position_fix, Role::kLow, "position_fix"};
   Writer<ThrustApplied> thrust{board->thrust_applied, Role::kLow, "thrust_applied"};
   Reader<VehicleState> states{board->vehicle_state};
+  Reader<WorldOrigin> origins{board->world_origin};
 };
+
+[[nodiscard]] EstimatorOptions options_at_start() {
+  EstimatorOptions options = options_for(PositionSource::kGps);
+  options.origin.reset();
+  options.origin_search = {10.0, 5.0};
+  return options;
+}
+
+// Its origin found where the receiver has the boat, a second a fix.
+void find_origin(Estimator& estimator, double latitude_deg, Time from) {
+  for (int i = 0; i < OriginSearch::kAgreeing; ++i) {
+    const Time now = from + i * seconds{1};
+    estimator.head(0.0, now);
+    estimator.fix(latitude_deg, now);
+    static_cast<void>(estimator.after_step(now));
+  }
+}
 
 TEST_CASE("estimator task: without a fresh heading it publishes nothing", "[high_level][tasks]") {
   Estimator estimator{PositionSource::kDeadReckoning};
@@ -168,6 +186,92 @@ TEST_CASE("estimator task: samples that are no numbers leave the estimate finite
   }
   estimator.head(0.5, kStart + seconds{5});
   CHECK(estimator.after_step(kStart + seconds{5}));
+}
+
+TEST_CASE("estimator task: an origin that is set is told once", "[high_level][tasks]") {
+  Estimator estimator{PositionSource::kGps};
+  for (int i = 0; i < 3; ++i) {
+    static_cast<void>(estimator.after_step(kStart + i * milliseconds{50}));
+  }
+  const auto told = all_of(estimator.origins);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].latitude_deg == Approx(35.0));
+  CHECK(told[0].source == OriginSource::kConfiguration);
+}
+
+TEST_CASE("estimator task: at_start, the first good fixes have the boat at the origin, for good",
+          "[high_level][tasks]") {
+  EstimatorOptions options = options_at_start();
+  options.antenna = {{0.0, -2.0}};  // astern
+  Estimator estimator{options};
+  estimator.head(0.0, kStart);
+  estimator.fix(48.0, kStart);
+  CHECK_FALSE(estimator.after_step(kStart));
+  CHECK(all_of(estimator.origins).empty());
+  find_origin(estimator, 48.0, kStart + seconds{1});
+  const auto told = all_of(estimator.origins);
+  REQUIRE(told.size() == 1);
+  // The boat lies 2 m north of its antenna.
+  CHECK((told[0].latitude_deg - 48.0) * 111200.0 == Approx(2.0).margin(0.01));
+  CHECK(told[0].source == OriginSource::kFirstFix);
+  CHECK(told[0].sigma_m == Approx(1.0));
+  CHECK(told[0].fixed == kStart + seconds{2});
+  // It is the origin from that fix on, and no later one moves it.
+  double y_m = 100.0;
+  for (int i = 0; i < 40; ++i) {
+    const Time now = kStart + seconds{4} + i * milliseconds{500};
+    estimator.head(0.0, now);
+    estimator.fix(48.0 + 5e-5, now);  // 5.6 m north
+    if (const auto state = estimator.after_step(now)) {
+      y_m = state->y_m;
+    }
+  }
+  CHECK(y_m == Approx(5.56).margin(0.5));
+  CHECK(all_of(estimator.origins).empty());
+}
+
+TEST_CASE("estimator task: started anew it keeps the origin that the first fixes gave",
+          "[high_level][tasks]") {
+  const auto board = std::make_unique<Blackboard>();
+  WorldOrigin before{48.0, 7.0, OriginSource::kFirstFix, 1.0, kStart};
+  Writer<WorldOrigin>{board->world_origin, Role::kHigh, "world_origin"}.publish(before, kStart);
+  Writer<Attitude> attitude{board->attitude, Role::kLow, "attitude"};
+  Writer<PositionFix> position{board->position_fix, Role::kLow, "position_fix"};
+  Reader<VehicleState> states{board->vehicle_state};
+  Reader<WorldOrigin> origins{board->world_origin};
+  const auto estimate_by = [&](const EstimatorOptions& options) {
+    EstimatorTask task{*board, Role::kHigh, options};
+    attitude.publish({kStart, 0.0, 0.0}, kStart);
+    position.publish({kStart, 48.001, 7.0, 1.0}, kStart);
+    task.step(kStart);
+    return all_of(states);
+  };
+  const auto kept = estimate_by(options_at_start());
+  REQUIRE(kept.size() == 1);
+  CHECK(kept[0].y_m == Approx(111.2).margin(0.1));
+  CHECK(all_of(origins).size() == 1);
+  // Where it is set, that counts.
+  static_cast<void>(estimate_by(options_for(PositionSource::kGps)));
+  const auto told = all_of(origins);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].latitude_deg == Approx(35.0));
+}
+
+TEST_CASE("estimator task: an origin that a configuration gave before is none of the first fixes",
+          "[high_level][tasks]") {
+  Estimator estimator{options_at_start()};
+  Blackboard& board = *estimator.board;
+  const auto other = std::make_unique<Blackboard>();
+  Writer<WorldOrigin>{other->world_origin, Role::kHigh, "world_origin"}.publish({60.0, 7.0},
+                                                                                kStart);
+  EstimatorTask task{*other, Role::kHigh, options_at_start()};
+  Writer<Attitude>{other->attitude, Role::kLow, "attitude"}.publish({kStart, 0.0, 0.0}, kStart);
+  Writer<PositionFix>{other->position_fix, Role::kLow, "position_fix"}.publish(
+      {kStart, 48.0, 7.0, 1.0}, kStart);
+  task.step(kStart);
+  Reader<VehicleState> states{other->vehicle_state};
+  CHECK(states.latest() == nullptr);
+  CHECK(Reader<WorldOrigin>{board.world_origin}.latest() == nullptr);
 }
 
 }  // namespace

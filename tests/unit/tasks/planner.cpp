@@ -102,10 +102,10 @@ TEST_CASE("planner task: after a long absence it holds where it is and waits to 
   planner.estimate(0.0, kStart);
   planner.order(OperatorOrder::kStart, kStart);
   REQUIRE(planner.after_step(kStart) == MissionState::kUnderWay);
-  Time now = kStart + PlannerTask::kLongestAbsence;
+  Time now = kStart + kLongestAbsence;
   planner.estimate(1.0, now);
   CHECK(planner.after_step(now) == MissionState::kUnderWay);  // not yet
-  now += PlannerTask::kLongestAbsence + Duration{1};
+  now += kLongestAbsence + Duration{1};
   // It is held where the boat is, and so only once that is known again.
   CHECK(planner.after_step(now) == MissionState::kUnderWay);
   now += milliseconds{50};
@@ -126,7 +126,7 @@ TEST_CASE("planner task: a start or an abort after a long absence is obeyed",
     planner.estimate(0.0, kStart);
     planner.order(OperatorOrder::kStart, kStart);
     REQUIRE(planner.after_step(kStart) == MissionState::kUnderWay);
-    const Time now = kStart + 2 * PlannerTask::kLongestAbsence;
+    const Time now = kStart + 2 * kLongestAbsence;
     planner.estimate(0.0, now);
     planner.order(order, now);
     CHECK(planner.after_step(now) == state);

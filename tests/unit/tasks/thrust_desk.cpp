@@ -141,6 +141,10 @@ TEST_CASE("thrust desk: the stick moves what is armed and nothing else", "[high_
   CHECK_FALSE(bench.desk.move_stick(word));
   CHECK(bench.stick.latest()->value.surge_ref == 30);
   CHECK(bench.stick.latest()->value.head_ref == -20);
+  CHECK_FALSE(bench.stick.latest()->value.overrides_guard);
+  word.overrides_guard = true;
+  CHECK_FALSE(bench.desk.move_stick(word));
+  CHECK(bench.stick.latest()->value.overrides_guard);
   MissionStatus aborted;
   aborted.state = MissionState::kAborted;
   aborted.ended = bench.now;

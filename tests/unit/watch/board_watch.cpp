@@ -16,6 +16,7 @@ using namespace cli;
 using std::chrono::milliseconds;
 
 constexpr Time kStart{std::chrono::seconds{100}};
+constexpr std::size_t kOtherChannels = 25;  // than of devices and tasks
 
 struct Boat {
   std::unique_ptr<Blackboard> board = std::make_unique<Blackboard>();
@@ -198,7 +199,7 @@ TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
   watch.poll(kStart);
   const SegmentState state{"lodesman-x", true, false, watch.state()};
   const auto lines = table_lines(state, false);
-  REQUIRE(lines.size() == 3 + 21 + 1 + kDeviceCount + kTaskCount + 1);
+  REQUIRE(lines.size() == 3 + kOtherChannels + 1 + kDeviceCount + kTaskCount + 1);
   REQUIRE(lines[0] == "! lodesman-x: lodesman-low alive, lodesman-high GONE");
   std::string all;
   for (const std::string& line : lines) {
@@ -218,7 +219,7 @@ TEST_CASE("watch: the table marks what is wrong, without colour too", "[cli]") {
 
   const auto json = to_json(state);
   REQUIRE(json.at("high_alive") == false);
-  REQUIRE(json.at("channels").size() == 21);
+  REQUIRE(json.at("channels").size() == kOtherChannels);
   REQUIRE(json.at("devices").size() == kDeviceCount);
   REQUIRE(json.at("channels")[1].at("name") == "attitude");
   REQUIRE(json.at("channels")[1].at("stale") == false);
