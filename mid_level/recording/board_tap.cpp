@@ -62,6 +62,7 @@ BoardTap::BoardTap(const Blackboard& board) {
 }
 
 BoardTap::BoardTap(BoardTap&&) noexcept = default;
+BoardTap& BoardTap::operator=(BoardTap&&) noexcept = default;
 BoardTap::~BoardTap() = default;
 
 void BoardTap::poll(PublicationSink& sink) noexcept {

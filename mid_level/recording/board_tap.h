@@ -60,6 +60,7 @@ class BoardTap {
   BoardTap(const BoardTap&) = delete;
   BoardTap& operator=(const BoardTap&) = delete;
   BoardTap(BoardTap&&) noexcept;
+  BoardTap& operator=(BoardTap&&) noexcept;
   ~BoardTap();
 
   void poll(PublicationSink& sink) noexcept;

@@ -48,7 +48,7 @@ McapRecovery recover(McapSource& from, McapWriter& to) {
     copy(item, reader, ids, to);
   }
   to.close_chunk();
-  const McapRecovery recovery = ended(reader, from, to.message_count());
+  McapRecovery recovery = ended(reader, from, to.message_count());
   to.add(McapMetadata{"recovered",
                       {{"reason", recovery.reason},
                        {"damaged", std::to_string(recovery.damaged)},

@@ -33,9 +33,10 @@ struct SonarPicture::Encoder {
 SonarPicture::SonarPicture()
     : grey_(std::size_t{kColumns} * kRows), encoder_{std::make_unique<Encoder>()} {
   places_.reserve(grey_.size());
+  constexpr int kApex = kColumns / 2;
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
-      const float x = static_cast<float>(column - kColumns / 2) / kRows;
+      const float x = static_cast<float>(column - kApex) / kRows;
       const float y = static_cast<float>(kRows - 1 - row) / kRows;
       places_.push_back({std::hypot(x, y), std::atan2(x, y)});
     }

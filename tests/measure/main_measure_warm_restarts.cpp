@@ -3,7 +3,9 @@
 // the real drivers against a bench whose devices are emulated to the byte, and fixes of 1 m. How
 // soon the propellers stand still (at the box's output), how soon the boat is under control again,
 // how far the estimate jumps against the truth, and what became of the mission. Prints a table;
-// status 1 where a bound is broken.
+// status 1 where propellers turn for longer than their bound, the estimate jumps by more than its
+// own, or the mission did not go on. How soon control is back is told beside its aim, and not
+// judged: other programs delay it.
 //   measure_warm_restarts [TIMES [maestro|roboclaw]]
 // TIMES: of each kill; of each freezing half as often.
 #include <fmt/format.h>
@@ -57,8 +59,8 @@ struct Row {
 
   [[nodiscard]] bool keeps_its_bounds() const {
     return std::all_of(events.begin(), events.end(), [this](const Event& e) {
-      return e.neutral_s <= bounds.neutral_s && e.control_s <= bounds.control_s &&
-             e.odometry_jump_m <= bounds.jump_m && e.mission == MissionState::kUnderWay;
+      return e.neutral_s <= bounds.neutral_s && e.odometry_jump_m <= bounds.jump_m &&
+             e.mission == MissionState::kUnderWay;
     });
   }
 };
@@ -78,7 +80,7 @@ struct Row {
 
 void print(const std::vector<Row>& rows) {
   fmt::print(
-      "| what happened | times | neutral s, p50 p99 worst | bound | control s | bound | odometry "
+      "| what happened | times | neutral s, p50 p99 worst | bound | control s | aim | odometry "
       "jump m | bound | world jump m | mission went on |\n|---|---|---|---|---|---|---|---|---|---|"
       "\n");
   for (const Row& row : rows) {

@@ -143,7 +143,7 @@ std::string BoatSession::ask(nlohmann::json request, Duration patience) {
   }
   stream_.expires_after(patience);
   const std::string text = request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  const std::string line = exchange(sealed_ ? sealed_->seal(text) : text);
+  std::string line = exchange(sealed_ ? sealed_->seal(text) : text);
   if (!sealed_ || line.empty()) {
     return line;
   }

@@ -56,7 +56,7 @@ fs::path find_program(const std::string& name) {
   std::istringstream folders{path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin"};
   std::string folder;
   while (std::getline(folders, folder, ':')) {
-    if (const fs::path program = fs::path{folder} / name; access(program.c_str(), X_OK) == 0) {
+    if (fs::path program = fs::path{folder} / name; access(program.c_str(), X_OK) == 0) {
       return program;
     }
   }
@@ -72,6 +72,7 @@ Companion::Companion(const std::vector<std::string>& words, const fs::path& dire
   std::vector<std::string> copies{words};
   copies.front() = program.string();
   std::vector<char*> pointers;
+  pointers.reserve(copies.size() + 1);
   for (std::string& word : copies) {
     pointers.push_back(word.data());
   }
