@@ -13,12 +13,14 @@
 #include "deploy/operator/rt_test/allocation_slots.h"
 
 // The C library's own, under the names that it keeps for programs which replace the others.
+// NOLINTBEGIN(*-reserved-identifier, readability-identifier-naming): the C library's names
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* block, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 }
+// NOLINTEND(*-reserved-identifier, readability-identifier-naming)
 
 namespace {
 
