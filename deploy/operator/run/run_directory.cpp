@@ -131,7 +131,7 @@ fs::path rename_by_clock(const fs::path& directory, std::int64_t utc_ns,
   // Made first, so that the name is this run's alone: a directory may take the place of an empty
   // one.
   std::error_code error;
-  const fs::path known = make_new_directory(directory.parent_path() / run_name(utc_ns, scenario));
+  fs::path known = make_new_directory(directory.parent_path() / run_name(utc_ns, scenario));
   fs::rename(directory, known, error);
   if (!error) {
     return known;
