@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The guard alone against full ahead, from many sides: at shapes in open water, and at each thing
 // that rests in the scenarios that are named. Prints a table by speed; status 1 where something was
-// touched, or where too few came near anything for that to say much.
+// touched though the low level was shown it (scene `obstacles`), or where too few came near anything
+// for that to say much. What is touched in `beams` is told: it stands for what nobody segments in
+// time, a bare post or a sonar that sees 2 m.
 //   full_ahead RUNS [SCENARIO...]
 // RUNS: of each shape, and of each scenario, at each of the four speeds and in both kinds of scene.
 #include <fmt/format.h>
@@ -85,7 +87,7 @@ class Campaign {
         "\n| speed m/s | scene | runs | stopped by the guard | touched | least clearance m | "
         "most of those stopped m |\n|---|---|---|---|---|---|---|\n");
     int met = 0;
-    int touched = 0;
+    int touched_though_shown = 0;
     for (std::size_t scene = 0; scene < 2; ++scene) {
       for (std::size_t i = 0; i < kSpeeds_m_s.size(); ++i) {
         const Row& row = rows_[scene][i];
@@ -93,14 +95,14 @@ class Campaign {
                    scene == 0 ? "obstacles" : "beams", row.runs, row.met, row.touched, row.least_m,
                    row.most_m);
         met += row.met;
-        touched += row.touched;
+        touched_though_shown += scene == 0 ? row.touched : 0;
       }
     }
     fmt::print(
         "\n{} scenarios and shapes; {} left out: something moves, or the water; {} draws "
         "found no room to start\n",
         scenarios_, left_out_, without_room_);
-    return touched == 0 && met > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return touched_though_shown == 0 && met > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
   }
 
  private:
