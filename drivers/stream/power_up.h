@@ -17,7 +17,9 @@ struct PowerUpSources {
 };
 
 // Of an open terminal device: a number for this boot, this device and this time that it came up.
-// 0 where that is not known. A node whose owner or mode is changed counts as another.
+// 0 where that is not known. A node is told from the one before it by the time at which it was
+// made, in ticks of the kernel (at most 10 ms): a pty within the same one counts as the same. A
+// node whose owner or mode is changed counts as another.
 [[nodiscard]] std::uint64_t power_up_of(int descriptor, const PowerUpSources& sources = {});
 
 }  // namespace lodesman

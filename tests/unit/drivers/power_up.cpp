@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 
+#include <chrono>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "drivers/stream/file_descriptor.h"
 #include "tests/support/catch.h"
@@ -67,6 +69,7 @@ TEST_CASE("power-up: a pty is the same as long as it is there, and another one i
   CHECK(first != 0);
   CHECK(power_up_of(opened(device.path()).value()) == first);
   device.unplug();
+  std::this_thread::sleep_for(std::chrono::milliseconds{25});  // the kernel's tick: see power_up.h
   device.plug();
   CHECK(power_up_of(opened(device.path()).value()) != first);
 }
