@@ -169,7 +169,8 @@ TEST_CASE("mcap reader: sizes that a file claims are not believed", "[recording]
 }
 
 TEST_CASE("mcap reader: what is no MCAP file is said to be none", "[recording]") {
-  McapBytesSource text{bytes_of("not a recording")};
+  const std::string words = "not a recording";
+  McapBytesSource text{bytes_of(words)};
   const McapRecovery seen = look_through(text);
   CHECK(seen.ending == McapEnding::kDamaged);
   CHECK(seen.reason == "is no MCAP file");
