@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The guard alone against full ahead, from many sides: at shapes in open water, and at each thing
 // that rests in the scenarios that are named. Prints a table by speed; status 1 where something was
-// touched though the low level was shown it (scene `obstacles`), or where too few came near anything
-// for that to say much. What is touched in `beams` is told: it stands for what nobody segments in
-// time, a bare post or a sonar that sees 2 m.
+// touched though the low level was shown it (scene `obstacles`), or where too few came near
+// anything for that to say much. What is touched in `beams` is told: it stands for what nobody
+// segments in time, a bare post or a sonar that sees 2 m.
 //   full_ahead RUNS [SCENARIO...]
 // RUNS: of each shape, and of each scenario, at each of the four speeds and in both kinds of scene.
 #include <fmt/format.h>
