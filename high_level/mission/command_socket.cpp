@@ -77,6 +77,13 @@ struct CommandSocket::Impl {
                             : std::vector{options.tokens, options.lasting_tokens};
   }
 
+  void count_failure(const CommandSession& session) {
+    limit.failed(session.place.network, socket_time());
+    if (events.refused && session.is_far()) {
+      events.refused(session.address);
+    }
+  }
+
   // The boat speaks first. Whether a token was proved: if not, this session ends.
   asio::awaitable<bool> shake_hands(CommandSession& session) {
     const BoatHandshake handshake{random_digest()};
@@ -90,12 +97,13 @@ struct CommandSocket::Impl {
       co_await wait(session, pause);
     }
     BoatHandshake::Verdict verdict = handshake.judge(answer, tokens_for(session));
+    const bool proved = verdict.scope != Scope::kNone;
+    // Before it is told: whoever hangs up on the verdict has guessed all the same.
+    if (!proved) {
+      count_failure(session);
+    }
     co_await send_line(session, std::move(verdict.reply));
-    if (verdict.scope == Scope::kNone) {
-      limit.failed(session.place.network, socket_time());
-      if (events.refused && session.is_far()) {
-        events.refused(session.address);
-      }
+    if (!proved) {
       co_return false;
     }
     session.proved = {verdict.scope, {verdict.keys, SessionEnd::kBoat}};
