@@ -28,28 +28,9 @@ clean_up() {
 trap clean_up EXIT
 trap 'exit 130' INT TERM HUP
 
-# row <what> <milliseconds...>: of the table: how often, the median and the worst.
-row() {
-  local what=$1
-  shift
-  printf '%s\n' "$@" | sort -n | awk -v what="$what" '{ v[NR] = $1 / 1000 }
-    END { printf "| %s | %d | %.2f | %.2f |\n", what, NR, v[int((NR + 1) / 2)], v[NR] }' >>"$place/table"
-}
-
-# said <key>: of `lodesman status`, as it stands there; nothing where the boat does not answer.
-said() {
-  inside lodesman status --json 2>/dev/null | tr -d ' \n' | sed -n "s/^{.*\"$1\":\"\?\([^\",}]*\).*/\1/p"
-}
-mission_is() {
-  [ "$(inside lodesman status --json 2>/dev/null | tr -d ' \n' |
-    grep -o '"state":"[a-z_]*"' | head -n 1)" = "\"state\":\"$1\"" ]
-}
-device_is() { # device_is <device> <words in what is said of it>
-  inside lodesman status --json | tr -d ' \n' | grep -q "\"$1\":{[^}]*$2"
-}
-# Nothing is missing for a start but the arming.
-ready_to_arm() {
-  inside lodesman status --json | tr -d ' \n' | grep -q '"against_arming":\[\]'
+# boat_says: all that `lodesman status` has, on one line; nothing where the boat does not answer.
+boat_says() {
+  inside lodesman status --json 2>/dev/null | tr -d ' \n'
 }
 can_start() {
   inside lodesman goto "$1" --speed "$2"
@@ -271,8 +252,5 @@ interrupt STOP high 1 "lodesman-high frozen"
 interrupt STOP low 1 "lodesman-low frozen"
 upgrade_it
 purge_it
-echo
-echo "| in the booted machine | times | median s | worst s |"
-echo "|---|---|---|---|"
-cat "$place/table"
+print_table "in the booted machine"
 say "the boat in a booted machine: all as it should be"
