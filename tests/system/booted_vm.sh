@@ -8,18 +8,21 @@
 # hardware watchdog. Prints a table of times, and fails at the first thing that is not as it should be.
 # Wants root, and packages as deploy/packages.sh names them.
 #   tests/system/booted_vm.sh [--keep DIR]
-# DIR: where the machine's disk is kept for the next run, which then need not make it.
+# DIR: where the machine's disk is kept for the next run, which then need not make it. On two busy cores all
+# of it takes a quarter of an hour.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . deploy/packages.sh
 . tests/system/booted_machine.sh
 
 bin=build/release/bin
+kept=
+case ${1:-} in
+  --keep) kept=$(realpath -m "$2") ;;
+  ?*) fail "$1: no such option" ;;
+esac
 place=$(mktemp -d)
-image=$place/image
-if [ "${1:-}" = --keep ]; then
-  image=$(realpath -m "$2")
-fi
+image=${kept:-$place/image}
 segment=lodesman-vm-$$
 state=/var/lib/lodesman
 by_id=/dev/serial/by-id/usb-QEMU_QEMU_USB_SERIAL
@@ -273,7 +276,7 @@ start_devices
 start=$(now_ms)
 switch_on
 wait_until 400 is_up none || fail "the machine does not come up: $(tail -n 20 "$place/console.log" "$place/qemu.log")"
-row "boot, to multi-user.target" $(($(now_ms) - start))
+row "boot, to \`multi-user.target\`" $(($(now_ms) - start))
 install_it
 configure
 before=$(boot_of)
