@@ -117,8 +117,11 @@ comes_back() {
   wait_until 120 services_are_up || give_up "$3: the services do not start by themselves"
   row "$3, until the services are up" $(($(now_ms) - $2))
   wait_until 120 boat_says || give_up "$3: the boat does not answer"
-  boat_says | grep -q -E '"thrust":\{[^}]*"state":"(disarmed|stopped)"' || give_up "$3: the thrusters are not disarmed"
-  mission_is idle || give_up "$3: a mission is there"
+  wait_until 60 is_disarmed || give_up "$3: the thrusters are not disarmed, or the boat answers no more"
+  wait_until 60 mission_is idle || give_up "$3: a mission is there, or the boat answers no more"
+}
+is_disarmed() {
+  boat_says | grep -q -E '"thrust":\{[^}]*"state":"(disarmed|stopped)"'
 }
 devices_work() { # devices_work <what> <milliseconds>
   local device

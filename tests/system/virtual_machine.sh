@@ -149,6 +149,6 @@ boot_of() { # which boot of the machine it is
 is_up() { # is_up <the boot before>: and it is another one
   [ "$(boot_of)" != "$1" ] && inside systemctl is-system-running --wait | grep -q -E 'running|degraded'
 }
-services_are_up() {
-  inside systemctl --quiet is-active lodesman-low lodesman-high
+services_are_up() { # both: of several that it is asked for, one is enough for systemctl
+  inside 'systemctl --quiet is-active lodesman-low && systemctl --quiet is-active lodesman-high'
 }
