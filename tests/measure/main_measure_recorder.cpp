@@ -34,9 +34,11 @@ struct Pings {
 [[nodiscard]] std::string voyage(const Pings& pings) {
   return scenario_text(1900.0, 10'000.0) +
          fmt::format(
-             "[[obstacle]]\nshape = \"circle\"\ncentre_m = [1.0, 15.0]\nradius_m = 0.5\n"
-             "[[obstacle]]\nshape = \"circle\"\ncentre_m = [-2.0, 40.0]\nradius_m = 0.7\n"
-             "[sonar]\nscene = \"beams\"\nnoise = \"sea\"\nbeams = {}\nbins = {}\n"
+             "[[obstacle]]\nshape = \"circle\"\ncentre_m = [1.0, 15.0]\nradius_m = "
+             "0.5\nprotection_m = 2.0\n"
+             "[[obstacle]]\nshape = \"circle\"\ncentre_m = [-2.0, 40.0]\nradius_m = "
+             "0.7\nprotection_m = 2.0\n"
+             "[sonar]\nscene = \"beams\"\nbeams = {}\nbins = {}\n"
              "ping_hz = 10.0\n",
              pings.beams, pings.bins);
 }
