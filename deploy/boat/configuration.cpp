@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "deploy/boat/level_options.h"
-#include "high_level/mission/network.h"
 #include "deploy/boat/recorder_settings.h"
+#include "high_level/mission/network.h"
 #include "mid_level/config/read_speed_table.h"
 
 namespace lodesman {

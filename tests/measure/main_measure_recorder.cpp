@@ -83,11 +83,11 @@ struct Recorded {
     const McapMessage& message = reader.message();
     const std::string& topic = reader.channel_by_id(message.channel)->topic;
     if (!topic.starts_with(kRawTopics)) {
-      recorded.missed += topic == kGapsTopic ? 1 : 0;
+      recorded.missed += topic == kGapsTopic ? 1U : 0U;
       continue;
     }
     const auto before = last.find(message.channel);
-    recorded.missed += before == last.end() ? 0 : message.sequence - before->second - 1;
+    recorded.missed += before == last.end() ? 0U : message.sequence - before->second - 1U;
     last[message.channel] = message.sequence;
     ++recorded.publications;
     if (topic == std::string{kRawTopics} + "attitude") {
@@ -229,7 +229,7 @@ int main(int argc, char** argv) {
   const int span_s = argc > 1 ? std::atoi(argv[1]) : 300;
   const int kills = argc > 2 ? std::atoi(argv[2]) : std::clamp(span_s / 6, 2, 50);
   try {
-    return lodesman::measure::run(seconds{span_s}, kills);
+    return lodesman::measure::run(std::chrono::seconds{span_s}, kills);
   } catch (const std::exception& error) {
     fmt::print(stderr, "measure_recorder: {}\n", error.what());
     return EXIT_FAILURE;

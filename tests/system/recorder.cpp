@@ -3,6 +3,8 @@
 // read by its format's own makers.
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iostream>
@@ -32,6 +34,7 @@ struct Topic {
 
 struct Contents {
   std::map<std::string, Topic> topics;
+  std::vector<json> gaps;
   std::map<std::string, std::string> about;
   std::map<std::string, std::string> attachments;
   std::uint64_t chunks = 0;
@@ -58,7 +61,12 @@ void take(Topic& topic, std::uint64_t sequence) {
   for (McapItem item = reader.next(); item != McapItem::kEnd; item = reader.next()) {
     if (item == McapItem::kMessage) {
       const McapMessage& message = reader.message();
-      take(contents.topics[reader.channel_by_id(message.channel)->topic], message.sequence);
+      const std::string& topic = reader.channel_by_id(message.channel)->topic;
+      take(contents.topics[topic], message.sequence);
+      if (topic == kGapsTopic) {
+        contents.gaps.push_back(json::parse(
+            std::string{reinterpret_cast<const char*>(message.data.data()), message.data.size()}));
+      }
     } else if (item == McapItem::kMetadata) {
       contents.about.insert(reader.metadata().values.begin(), reader.metadata().values.end());
     } else if (item == McapItem::kAttachment) {
@@ -248,26 +256,41 @@ TEST_CASE("recorder: when the low level is started anew the recording goes on", 
 }
 
 // A limit of the file's size fails as a full disk does, and needs no disk of the test's own.
-TEST_CASE("recorder: a disk that is full costs what did not fit, and is said", "[system]") {
+TEST_CASE("recorder: a disk that is full costs what did not fit, which the next file tells",
+          "[system]") {
+  constexpr rlim_t kDisk_bytes = 200'000;
   const Scratch scratch{"recorder"};
   const Boat boat{scratch, "default", scenario_text(80.0)};
   auto arguments = boat.arguments;
   const fs::path out = scratch.file("full.mcap");
   arguments.insert(arguments.end(), {"--out", out.string()});
   Program recorder{program_directory() / "lodesman-recorder", arguments, [] {
-                     const rlimit limit{400'000, 400'000};
+                     const rlimit limit{kDisk_bytes, kDisk_bytes};
                      setrlimit(RLIMIT_FSIZE, &limit);
                    }};
-  const fs::path part = DiskFile::part_of(out);
-  REQUIRE(eventually([&] { return fs::exists(part) && fs::file_size(part) > 100'000; }));
-  std::this_thread::sleep_for(seconds{4});
+  // Some seconds after the error another file is tried.
+  const fs::path second = scratch.file("full-2.mcap");
+  REQUIRE(eventually([&] {
+    const fs::path part = DiskFile::part_of(second);
+    return fs::exists(part) && contents_of(part).chunks > 0;
+  }));
   kill(recorder.pid(), SIGTERM);
   CHECK(recorder.status() == 4);
-  const fs::path left = fs::exists(part) ? part : out;
-  const Contents contents = contents_of(left);
-  CHECK(contents.chunks >= 1);
-  CHECK(fs::file_size(left) <= 400'000);
-  check_unbroken(contents, false);
+  const auto left_of = [](const fs::path& file) {
+    return fs::exists(file) ? file : DiskFile::part_of(file);
+  };
+  CHECK(fs::file_size(left_of(out)) <= kDisk_bytes);
+  const Contents before = contents_of(left_of(out));
+  CHECK(before.chunks > 0);
+  check_unbroken(before, false);
+  const Contents after = contents_of(left_of(second));
+  const Topic& was = before.topics.at("raw/attitude");
+  const Topic& is = after.topics.at("raw/attitude");
+  const auto gap = std::find_if(after.gaps.begin(), after.gaps.end(),
+                                [](const json& g) { return g["channel"] == "attitude"; });
+  REQUIRE(gap != after.gaps.end());
+  CHECK((*gap)["first"] == was.last + 1);
+  CHECK((*gap)["last"] == is.first - 1);
 }
 
 TEST_CASE("recorder: without a boat it ends with not yet, and without a place to write refuses",

@@ -181,8 +181,7 @@ class RunOutput {
 
 constexpr const char* kRecording = "mission.mcap";
 
-// Of a run in lock-step; the other ways of running have lodesman-recorder. A chunk a MiB will do:
-// what a power cut takes can be sailed again.
+// Of a run in lock-step; the other ways of running have lodesman-recorder.
 [[nodiscard]] std::unique_ptr<FileSeries> recording_of(const SimOptions& options,
                                                        const BoatConfig& configuration,
                                                        const fs::path& directory) {
@@ -192,7 +191,7 @@ constexpr const char* kRecording = "mission.mcap";
   return series_of_run(
       configuration, directory / kRecording,
       recording_notes(configuration, "lodesman sim", read_text(directory / "scenario.toml")),
-      Duration{});
+      Pace::kLockstep);
 }
 
 // Closes it. Empty where all is in the file.
@@ -225,9 +224,9 @@ constexpr const char* kRecording = "mission.mcap";
     bench_arguments = arguments_of(*bench, ports);
   }
   return run_realtime({directory / "config.toml", directory / "scenario.toml", configuration,
-                       scenario, bench_arguments,
+                       scenario, bench_arguments, options.wait_start, interrupted, show, on_plan,
+                       on_row,
                        options.record ? std::optional{directory / kRecording} : std::nullopt,
-                       options.wait_start, interrupted, show, on_plan, on_row,
                        [&output](const std::string& fault) { output.note(fault); }});
 }
 

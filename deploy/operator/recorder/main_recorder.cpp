@@ -6,6 +6,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <thread>
 
 #include "deploy/boat/exit_status.h"
 #include "deploy/boat/log.h"
@@ -24,9 +25,13 @@ namespace {
 constexpr Duration kFirstPatience = std::chrono::seconds{5};
 // What is started again is back by then; later the file is closed.
 constexpr Duration kBoatPatience = std::chrono::seconds{5};
-constexpr Duration kLookPeriod = std::chrono::milliseconds{100};
+constexpr Duration kLookPeriod = std::chrono::milliseconds{20};
 // What cannot be used may be what a low level that starts is about to replace.
 constexpr Duration kRefusalPatience = std::chrono::milliseconds{300};
+// A stop of the whole boat comes to all its programs at once: this one ends after the others, so
+// that it has their last words, or after so long.
+constexpr Duration kLastWords = std::chrono::seconds{1};
+constexpr Duration kLastWordsPeriod = std::chrono::milliseconds{20};
 
 struct RecorderOptions : ProcessOptions {
   std::string out;
@@ -47,14 +52,18 @@ struct RecorderOptions : ProcessOptions {
         throw;
       }
       nothing_seen = now;
-    } catch (const StartupError&) {
+    } catch (const StartupError& error) {
       if (now - nothing_seen >= kRefusalPatience) {
-        throw;
+        if (first) {
+          throw;
+        }
+        // The boat was started anew as another version: whoever starts this one again has that too.
+        throw NotYetError(error.what());
       }
     }
     return board.has_value();
   };
-  while (!look() && !stop_asked()) {
+  if (!look()) {
     wait_for_stop(look);
   }
   return board;
@@ -89,30 +98,56 @@ class BoatLife {
   bool superseded_ = false;
 };
 
+// Once a stop is asked for.
+void hear_last_words(BoatLife& boat) {
+  const SteadyClock clock;
+  const Time until = clock.now() + kLastWords;
+  while (stop_asked() && boat.is_alive() && clock.now() < until) {
+    std::this_thread::sleep_for(kLastWordsPeriod);
+    boat.look();
+  }
+}
+
+void close(FileSeries& series) {
+  series.close();
+  for (const std::string& line : series.news()) {
+    say(line);
+  }
+}
+
 // Until this segment is left for good, or a stop. A boat that is gone for longer ends the file; if
 // it comes back to this segment, another one goes on where that ended.
-void record(const SharedBlackboard& board, FileSeries& series, std::size_t queue_bytes) {
-  BoardTap tap{*board};
+void record(const SharedBlackboard& board, bool first, FileSeries& series,
+            std::size_t queue_bytes) {
+  // A segment that came while this program was there is recorded from its first publication on.
+  BoardTap tap{*board, first ? BoardTap::Past::kNoGap : BoardTap::Past::kGap};
+  auto which = first ? RecorderLoop::Board::kTheSame : RecorderLoop::Board::kAnother;
   BoatLife boat{board};
-  const auto say_news = [&series] {
-    for (const std::string& line : series.news()) {
-      say(line);
-    }
-  };
-  while (!stop_asked() && !boat.is_superseded()) {
+  while (!stop_asked()) {
     {
-      const RecorderLoop loop{tap, series, queue_bytes, say};
+      const RecorderLoop loop{tap, which, series, queue_bytes, say};
       wait_for_stop([&] {
         boat.look();
         return boat.is_superseded() || boat.is_gone();
       });
+      hear_last_words(boat);
     }
-    series.close();
-    say_news();
+    if (boat.is_superseded()) {
+      say("lodesman-low has made another segment, which is recorded in another file");
+      return;
+    }
+    if (boat.is_gone()) {
+      say("neither lodesman-low nor lodesman-high is there any more");
+    }
+    close(series);
+    which = RecorderLoop::Board::kTheSame;
     wait_for_stop([&] {
       boat.look();
       return boat.is_superseded() || boat.is_alive();
     });
+    if (boat.is_superseded()) {
+      return;
+    }
   }
 }
 
@@ -131,14 +166,15 @@ int run(const RecorderOptions& options) {
   const RecordingNotes notes = recording_notes(config, "lodesman-recorder", scenario_text(config));
   const auto series = options.out.empty()
                           ? series_of_boat(config, recording_name(config), notes)
-                          : series_of_run(config, options.out, notes, settings.chunk_span);
+                          : series_of_run(config, options.out, notes, Pace::kRealTime);
   for (bool first = true; !stop_asked(); first = false) {
     const auto board = attach(config.segment, first);
     if (!board) {
       break;
     }
-    record(*board, *series, settings.queue_bytes);
+    record(*board, first, *series, settings.queue_bytes);
   }
+  close(*series);
   say("recorded " + std::to_string(series->recorded()) + " publications, " +
       std::to_string(series->lost()) + " are missing");
   return series->has_failed() ? kExitFault : kExitDone;

@@ -3,11 +3,30 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
+
+#include "mid_level/base/check.h"
 
 namespace lodesman::cli {
 
+namespace {
+
+[[nodiscard]] std::size_t largest_publication() {
+  std::size_t largest = 0;
+  const auto board = std::make_unique<Blackboard>();
+  for_each_channel(*board, [&]<class C>(const ChannelInfo& /*info*/, const C& /*channel*/) {
+    largest = std::max(largest, sizeof(typename C::Value));
+  });
+  return largest;
+}
+
+}  // namespace
+
 PublicationQueue::PublicationQueue(std::size_t bytes)
-    : ring_(rounded(std::max(bytes, kLeast_bytes)), std::byte{1}), untold_(raw_channels().size()) {}
+    : ring_(rounded(std::max(bytes, kLeast_bytes)), std::byte{1}), untold_(raw_channels().size()) {
+  // Wherever the ring's end is, the largest fits before it or behind it.
+  LODESMAN_CHECK(2 * (sizeof(Head) + rounded(largest_publication())) <= ring_.size());
+}
 
 std::size_t PublicationQueue::rounded(std::size_t bytes) noexcept {
   return (bytes + sizeof(Head) - 1) / sizeof(Head) * sizeof(Head);

@@ -8,9 +8,9 @@
 
 namespace lodesman::cli {
 
-RecorderLoop::RecorderLoop(BoardTap& tap, FileSeries& series, std::size_t queue_bytes,
+RecorderLoop::RecorderLoop(BoardTap& tap, Board which, FileSeries& series, std::size_t queue_bytes,
                            std::function<void(const std::string&)> say)
-    : tap_{tap}, series_{series}, say_{std::move(say)}, queue_{queue_bytes} {
+    : tap_{tap}, which_{which}, series_{series}, say_{std::move(say)}, queue_{queue_bytes} {
   polling_ = std::jthread{[this](const std::stop_token& stop) { poll(stop); }};
   writing_ = std::jthread{[this](const std::stop_token& stop) { write(stop); }};
 }
@@ -37,6 +37,9 @@ void RecorderLoop::poll(const std::stop_token& stop) noexcept {
 }
 
 void RecorderLoop::write(const std::stop_token& stop) {
+  if (which_ == Board::kAnother) {
+    series_.begin_anew();  // takes as long as the disk, while the other thread looks already
+  }
   bool last = false;
   while (!last) {
     last = stop.stop_requested();
@@ -61,6 +64,8 @@ void RecorderLoop::write_what_came() {
       series_.add(entry->publication, entry->raw, now);
     }
     queue_.pop();
+    // A disk that is slower than the boat for a while is to be synced all the same.
+    series_.tick(now);
   }
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The recorder at work: one thread follows the blackboard, and never waits for the other, which
-// compresses and writes. Made and ended by the main thread; meanwhile tap, series and `say` belong
-// to these two.
+// The recorder at work on one blackboard: one thread follows it, and never waits for the other,
+// which compresses and writes. Made and ended by the main thread; meanwhile tap, series and `say`
+// belong to these two.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <thread>
@@ -24,7 +25,10 @@ class RecorderLoop {
   // all, which on a busy machine might keep it waiting for longer than the rings last.
   static constexpr int kPollPriority = 1;
 
-  RecorderLoop(BoardTap& tap, FileSeries& series, std::size_t queue_bytes,
+  // Whether the series goes on with the blackboard that it had before, if it had one.
+  enum class Board : std::uint8_t { kTheSame, kAnother };
+
+  RecorderLoop(BoardTap& tap, Board which, FileSeries& series, std::size_t queue_bytes,
                std::function<void(const std::string&)> say);
   RecorderLoop(const RecorderLoop&) = delete;
   RecorderLoop& operator=(const RecorderLoop&) = delete;
@@ -36,6 +40,7 @@ class RecorderLoop {
   void write_what_came();
 
   BoardTap& tap_;
+  Board which_;
   FileSeries& series_;
   std::function<void(const std::string&)> say_;
   PublicationQueue queue_;

@@ -22,11 +22,22 @@ namespace fs = std::filesystem;
       .count();
 }
 
+// What is to be added to a time in the file to make it UTC, as the machine's clock has it now: that
+// may be set long after the boat was switched on.
+void renew_utc(std::map<std::string, std::string>& about) {
+  if (const std::int64_t utc_ns = utc_now_ns(); is_plausible_utc(utc_ns)) {
+    about["utc_minus_boat_ns"] =
+        std::to_string(utc_ns - SteadyClock{}.now().time_since_epoch().count());
+  } else {
+    about.erase("utc_minus_boat_ns");
+  }
+}
+
 [[nodiscard]] std::unique_ptr<FileSeries> series(const BoatConfig& config, SeriesOptions options,
                                                  RecordingNotes notes) {
   options.free_floor_bytes = recorder_settings(config).free_floor_bytes;
   // What is published once and holds on.
-  options.said_again = {"mission_definition", "tunables"};
+  options.said_again = {"world_origin", "mission_definition", "tunables", "box_proof"};
   const fs::path where = options.first;
   return std::make_unique<FileSeries>(
       std::move(options), std::move(notes),
@@ -69,11 +80,6 @@ RecordingNotes recording_notes(const BoatConfig& config, const std::string& prog
                  {"boat", config.name},
                  {"segment", config.segment},
                  {"layout_hash", std::to_string(layout_hash())}};
-  // What is to be added to a time in the file to make it UTC, as the machine's clock had it then.
-  if (const std::int64_t utc_ns = utc_now_ns(); is_plausible_utc(utc_ns)) {
-    notes.about["utc_minus_boat_ns"] =
-        std::to_string(utc_ns - SteadyClock{}.now().time_since_epoch().count());
-  }
   notes.attachments["config.toml"] = config.to_text();
   if (!scenario.empty()) {
     notes.attachments["scenario.toml"] = scenario;
@@ -85,6 +91,7 @@ std::unique_ptr<FileSeries> series_of_boat(const BoatConfig& config, const fs::p
                                            RecordingNotes notes) {
   SeriesOptions options;
   options.first = first;
+  options.renew_about = renew_utc;
   const RecorderSettings settings = recorder_settings(config);
   options.rotate_bytes = settings.rotate_bytes;
   options.rotate_after = settings.rotate_after;
@@ -93,10 +100,13 @@ std::unique_ptr<FileSeries> series_of_boat(const BoatConfig& config, const fs::p
 }
 
 std::unique_ptr<FileSeries> series_of_run(const BoatConfig& config, const fs::path& file,
-                                          RecordingNotes notes, Duration chunk_span) {
+                                          RecordingNotes notes, Pace pace) {
   SeriesOptions options;
   options.first = file;
-  options.chunk_span = chunk_span;
+  if (pace == Pace::kRealTime) {
+    options.chunk_span = recorder_settings(config).chunk_span;
+    options.renew_about = renew_utc;
+  }
   return series(config, std::move(options), std::move(notes));
 }
 

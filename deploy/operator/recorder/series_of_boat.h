@@ -3,6 +3,7 @@
 // of the boat in each. The main thread, at start-up.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -28,9 +29,13 @@ namespace lodesman::cli {
                                                          const std::filesystem::path& first,
                                                          RecordingNotes notes);
 
-// All of a run in one file. `chunk_span`: zero where nothing need survive a power cut.
+// In lock-step the boat's time is the run's own, and a run that a power cut ends can be sailed
+// again: nothing in the file is of the machine's clock, and a chunk is as large as may be.
+enum class Pace : std::uint8_t { kRealTime, kLockstep };
+
+// All of a run in one file.
 [[nodiscard]] std::unique_ptr<FileSeries> series_of_run(const BoatConfig& config,
                                                         const std::filesystem::path& file,
-                                                        RecordingNotes notes, Duration chunk_span);
+                                                        RecordingNotes notes, Pace pace);
 
 }  // namespace lodesman::cli

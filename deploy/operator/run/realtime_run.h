@@ -21,13 +21,14 @@ struct RealtimeRun {
   const Scenario& scenario;
   // Arguments of lodesman-devices, where it runs beside them: then the truth is in its segment.
   std::optional<std::vector<std::string>> bench;
-  std::optional<std::filesystem::path> record;  // the file of a recording, where there is one
   bool wait_start = false;  // for an operator's start, instead of starting by itself
   const std::function<bool()>& interrupted;
   const std::function<void(const RunProgress&)>& show;
   std::function<void(const Blackboard&, const Plan&, const SonarPath*, const PlanRecord&)> on_plan;
   // For each row of the trajectory; may be empty.
   std::function<void(const TrajectoryRow&)> on_row = {};
+  // The file of a recording, where there is to be one.
+  std::optional<std::filesystem::path> record = std::nullopt;
   // Called once at the end with why a recording that was asked for is not whole; may be empty.
   std::function<void(const std::string&)> on_recording_fault = {};
 };
