@@ -17,6 +17,9 @@ gpsd_packages="gpsd gpsd-clients"
 # For deploy/package.sh, and for tests/system/booted_boat.sh, which boots what was packed.
 package_packages="dpkg-dev file help2man"
 booted_packages="iproute2 lintian mmdebstrap systemd-container"
+# For tests/system/recorder.cpp, which reads recordings with npm's packages too, where
+# tests/system/mcap/install.sh has installed them.
+recording_packages="nodejs npm"
 # For lodesman rt-test (its load, and cyclictest beside it) and for what is measured under load.
 load_packages="stress-ng rt-tests"
 

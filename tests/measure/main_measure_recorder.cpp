@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The black box at full rate, on two processes in real time: what it misses, what it costs, and
 // whether the boat's own chain from ping to thrust notices it: in one run the recorder is there for
-// 10 s, and not there for 10 s, in turn. Then it is killed at random moments: how much of the last
-// seconds is not in the file. Prints two tables; status 1 where a publication was missed.
+// 10 s, and not there for 10 s, in turn. Then images that are all noise. Then it is killed at
+// random moments: how much of the last seconds is not in the file. Prints three tables; status 1
+// where a publication was missed, or more than a second lost.
 //   measure_recorder [SECONDS [KILLS]]
 // SECONDS: of each row, recorded and not.
 #include <fmt/format.h>
@@ -24,10 +25,13 @@ namespace {
 using namespace lodesman::testing;
 
 constexpr Duration kTurn = seconds{10};
+constexpr Duration kPingPeriod = milliseconds{100};
+constexpr double kMayBeLost_s = 1.0;
+constexpr int kEnoughKills = 10;
 
 struct Pings {
-  int beams;
-  int bins;
+  std::uint32_t beams;
+  std::uint32_t bins;
 };
 
 // Hours away, among a few obstacles that a sonar hears.
@@ -56,6 +60,19 @@ struct Pings {
   double system = 0.0;
   fields >> user >> system;
   return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+// The most that was ever resident.
+[[nodiscard]] double peak_MB(pid_t pid) {
+  std::ifstream status{"/proc/" + std::to_string(pid) + "/status"};
+  for (std::string word; status >> word;) {
+    if (word == "VmHWM:") {
+      double kilobytes = 0.0;
+      status >> kilobytes;
+      return 1.024e-3 * kilobytes;
+    }
+  }
+  return 0.0;
 }
 
 struct Recorded {
@@ -136,6 +153,7 @@ struct Row {
   Recorded recorded;
   double recorded_s = 0.0;
   double processor_s = 0.0;
+  double peak_MB = 0.0;
   std::vector<double> with_ms;
   std::vector<double> without_ms;
 };
@@ -168,6 +186,7 @@ void wait(Duration span, PingToThrust& chain, std::vector<double>& ms) {
     auto recorder = start_recorder(boat, file);
     wait(kTurn, chain, row.with_ms);
     row.processor_s += processor_s(recorder->pid());
+    row.peak_MB = std::max(row.peak_MB, peak_MB(recorder->pid()));
     row.recorded_s += to_seconds(kTurn);
     recorder->stop(seconds{20});
     row.recorded.add(look_into(file));
@@ -178,16 +197,52 @@ void wait(Duration span, PingToThrust& chain, std::vector<double>& ms) {
 
 void print(const Pings& pings, const Row& row) {
   fmt::print(
-      "| {} x {} | {:.0f} | {} | {} | {:.1f} % | {:.1f} | {:.1f}, {:.1f} | {:.1f}, {:.1f} |\n",
+      "| {} x {} | {:.0f} | {} | {} | {:.1f} % | {:.0f} | {:.2f} | {}: {:.1f}, {:.1f} | {}: "
+      "{:.1f}, "
+      "{:.1f} |\n",
       pings.beams, pings.bins, row.recorded_s, row.recorded.publications, row.recorded.missed,
-      100.0 * row.processor_s / row.recorded_s,
-      60e-6 * static_cast<double>(row.recorded.bytes) / row.recorded_s,
-      percentile(row.without_ms, 0.5), percentile(row.without_ms, 0.99),
+      100.0 * row.processor_s / row.recorded_s, row.peak_MB,
+      1e-6 * static_cast<double>(row.recorded.bytes) / row.recorded_s, row.without_ms.size(),
+      percentile(row.without_ms, 0.5), percentile(row.without_ms, 0.99), row.with_ms.size(),
       percentile(row.with_ms, 0.5), percentile(row.with_ms, 0.99));
 }
 
+// What is simulated is nearly all silence, which takes no room; real echoes may be all noise.
+// Nobody sails here: this program is the sonar.
+[[nodiscard]] std::uint64_t record_noise(const Pings& pings, Duration span) {
+  const Scratch scratch{"measure-recorder"};
+  const std::string segment = "lodesman-measure-" + std::to_string(getpid());
+  SharedBlackboard board = SharedBlackboard::create(segment);
+  auto sonar = writer_of(board.writable(), board.writable().sonar_ping, Role::kLow);
+  const auto ping = std::make_unique<SonarPing>();
+  ping->range_m = 30.0;
+  ping->make_image(pings.beams, pings.bins, 2.0);
+  std::mt19937_64 random{1};
+  const fs::path file = scratch.file("noise.mcap");
+  ChildProcess recorder{"lodesman-recorder", {"--segment", segment, "--out", file.string()}};
+  const SteadyClock clock;
+  const Time begun = clock.now() + seconds{2};  // by then the recorder looks
+  for (Time due = begun; due < begun + span; due += kPingPeriod) {
+    std::this_thread::sleep_for(due - clock.now());
+    ++ping->number;
+    std::generate_n(ping->echo.begin(), ping->echo_count,
+                    [&] { return static_cast<std::uint8_t>(random()); });
+    sonar.publish(*ping, clock.now());
+  }
+  const double spent_s = processor_s(recorder.pid());
+  const double memory_MB = peak_MB(recorder.pid());
+  recorder.stop(seconds{20});
+  const Recorded recorded = look_into(file);
+  const std::uint64_t missed = sonar.sequence() - recorded.publications;
+  fmt::print("| {} x {} | {:.0f} | {} | {} | {:.1f} % | {:.0f} | {:.2f} |\n", pings.beams,
+             pings.bins, to_seconds(span), recorded.publications, missed,
+             100.0 * spent_s / to_seconds(span), memory_MB,
+             1e-6 * static_cast<double>(recorded.bytes) / to_seconds(span));
+  return missed;
+}
+
 // How old what is missing at the end of a file is at most, when its recorder was killed.
-void kill_some(int kills) {
+[[nodiscard]] double kill_some(int kills) {
   const Scratch scratch{"measure-recorder"};
   const Boat boat{scratch, "default", voyage({120, 500})};
   const auto board = SharedBlackboard::observe(boat.segment, seconds{20});
@@ -206,20 +261,31 @@ void kill_some(int kills) {
   fmt::print("\n| killed at random | lost, median s | lost, worst s |\n|---|---|---|\n");
   fmt::print("| {} times | {:.2f} | {:.2f} |\n", kills, percentile(lost_s, 0.5),
              percentile(lost_s, 1.0));
+  return percentile(lost_s, 1.0);
 }
 
 [[nodiscard]] int run(Duration span, int kills) {
   fmt::print(
-      "| pings at 10 Hz | recorded s | publications | missed | of a core | MB a minute | "
-      "ping to thrust without, p50, p99 ms | with |\n|---|---|---|---|---|---|---|---|\n");
+      "| pings at 10 Hz | recorded s | publications | missed | of a core | peak memory MB | disk "
+      "MB/s "
+      "| ping to thrust without: number, p50, p99 ms | with "
+      "|\n|---|---|---|---|---|---|---|---|---|\n");
   std::uint64_t missed = 0;
   for (const Pings& pings : {Pings{120, 500}, Pings{512, 1000}}) {
     const Row row = measure(pings, span);
     print(pings, row);
     missed += row.recorded.missed;
   }
-  kill_some(kills);
-  return missed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+  fmt::print(
+      "\n| pings of noise at 10 Hz | s | pings | missed | of a core | peak memory MB | disk MB/s "
+      "|\n"
+      "|---|---|---|---|---|---|---|\n");
+  for (const Pings& pings : {Pings{120, 500}, Pings{512, 1000}}) {
+    missed += record_noise(pings, span);
+  }
+  // A few kills on a machine that tests at the same time say little of the worst.
+  const bool is_kept = kill_some(kills) <= kMayBeLost_s || kills < kEnoughKills;
+  return missed == 0 && is_kept ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 }  // namespace

@@ -201,12 +201,26 @@ completes() { # completes <what> <words so far...>
 
 judge_exposure() {
   local program
-  for program in low high; do
+  for program in low high recorder; do
     inside systemd-analyze security --no-pager "lodesman-$program.service" >"$place/exposure" || true
     grep -o "Overall.*: [0-9.]*" "$place/exposure"
     inside systemd-analyze security --no-pager --threshold=20 "lodesman-$program.service" >/dev/null ||
       fail "the exposure of lodesman-$program: $(cat "$place/exposure")"
   done
+}
+
+# The black box is closed by a stop, and every one is the boat's alone.
+judge_recordings() {
+  local news
+  inside systemctl stop lodesman-recorder
+  news=$(inside journalctl -u lodesman-recorder -o cat --no-pager)
+  grep -q "^recorded [1-9][0-9]* publications" <<<"$news" || fail "nothing was recorded: $news"
+  grep "^recorded " <<<"$news"
+  inside sh -c 'ls /var/lib/lodesman/recordings/*.mcap && ! ls /var/lib/lodesman/recordings/*.part' >/dev/null ||
+    fail "a recording was not closed: $news"
+  [ "$(inside sh -c 'stat -c %U:%a /var/lib/lodesman/recordings/*.mcap' | sort -u)" = lodesman:640 ] ||
+    fail "the recordings are not the boat's alone"
+  inside systemctl start lodesman-recorder
 }
 
 upgrade_it() {
@@ -269,6 +283,7 @@ interrupt KILL high "$kills" "lodesman-high killed"
 interrupt KILL low "$kills" "lodesman-low killed"
 interrupt STOP high 1 "lodesman-high frozen"
 interrupt STOP low 1 "lodesman-low frozen"
+judge_recordings
 upgrade_it
 purge_it
 echo

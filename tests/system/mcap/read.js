@@ -2,12 +2,16 @@
 // Reads recordings with the library of MCAP's makers, every CRC checked: as a stream, and, where a
 // file was finished, by its indexes too. What is in a Foxglove shape is held against the viewers' own
 // schema. One JSON document on standard output; ends with 1 where something is not as it must be.
-//   node read.js FILE...
-import { McapIndexedReader, McapStreamReader } from "@mcap/core";
-import foxglove from "@foxglove/schemas/jsonschema.js";
-import Ajv from "ajv";
-import * as fzstd from "fzstd";
+//   node read.js PACKAGES FILE...      PACKAGES: where install.sh has put what it needs
 import fs from "node:fs";
+import { createRequire } from "node:module";
+import path from "node:path";
+
+const require = createRequire(path.resolve(process.argv[2], "x"));
+const { McapIndexedReader, McapStreamReader } = require("@mcap/core");
+const foxglove = require("@foxglove/schemas/jsonschema.js");
+const Ajv = require("ajv");
+const fzstd = require("fzstd");
 
 const decompressHandlers = { zstd: (packed, size) => fzstd.decompress(packed, new Uint8Array(Number(size))) };
 const ajv = new Ajv({ strict: false, validateFormats: false });
@@ -88,7 +92,7 @@ async function indexed(file) {
 }
 
 const files = {};
-for (const file of process.argv.slice(2)) {
+for (const file of process.argv.slice(3)) {
   try {
     const { counter, done } = stream(file);
     files[file] = { done, topics: counter.topics, foxglove: counter.foxglove };
