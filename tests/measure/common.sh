@@ -68,6 +68,52 @@ holds() { awk "BEGIN { exit !($1) }"; }
 # memory_of <process>: [KiB] resident; nothing where it has ended.
 memory_of() { sed -n 's/^VmRSS:[^0-9]*\([0-9]*\) kB/\1/p' "/proc/$1/status" 2>/dev/null; }
 
+# children_of <process>
+children_of() { cat "/proc/$1/task/$1/children" 2>/dev/null; }
+
+# minutes_since <$SECONDS of then>
+minutes_since() { awk "BEGIN { printf \"%.1f\", ($SECONDS - $1) / 60 }"; }
+
+# wait_while_alive <seconds> <process>
+wait_while_alive() {
+  local i
+  for ((i = 0; i < $1; i++)); do
+    kill -0 "$2" 2>/dev/null || return 0
+    sleep 1
+  done
+}
+
+# held_heading, and held_by <minute> <process>: a row of what it holds; nothing where it has ended.
+held_heading() { printf '%8s %-18s %12s %12s\n' 'minutes' 'program' 'memory KiB' 'descriptors'; }
+held_by() {
+  local name memory descriptors
+  name=$(cat "/proc/$2/comm" 2>/dev/null) || return 0
+  memory=$(memory_of "$2")
+  descriptors=$(find "/proc/$2/fd" -mindepth 1 2>/dev/null | wc -l)
+  [ -z "$memory" ] || [ "$descriptors" = 0 ] ||
+    printf '%8s %-18s %12s %12s\n' "$1" "$name" "$memory" "$descriptors"
+}
+
+# judge_growth <file of such rows> [program]: fails where a program grows by more than 1 MiB an hour over
+# the second half of its rows, or holds more descriptors than it did; <program> is shown and not judged.
+judge_growth() {
+  awk -v spared="${2:-}" '
+    { if (!($2 in n)) { order[++names] = $2 }
+      n[$2]++; at[$2, n[$2]] = $1; memory[$2, n[$2]] = $3; held[$2, n[$2]] = $4 }
+    END {
+      for (k = 1; k <= names; k++) {
+        name = order[k]; half = int((n[name] + 1) / 2); last = n[name]
+        hours = (at[name, last] - at[name, half]) / 60
+        if (last < 3 || hours <= 0) { print "too short to judge"; exit 1 }
+        growth = (memory[name, last] - memory[name, half]) / hours
+        printf "%s: %.0f KiB an hour over the second half, %d descriptors more\n", name, growth,
+               held[name, last] - held[name, half]
+        bad = bad || (name != spared && (growth > 1024 || held[name, last] > held[name, half]))
+      }
+      exit bad || names < 2
+    }' "$1"
+}
+
 # end_with <variable>: the process that it names ends with this script.
 end_with() {
   # shellcheck disable=SC2064  # the name of the variable is known now

@@ -20,39 +20,18 @@ run=$!
 begun=$SECONDS
 sleep 10  # until all have what they keep
 heading
-printf '%8s %-18s %12s %12s\n' 'minutes' 'program' 'memory KiB' 'descriptors'
+held_heading
 while kill -0 "$run" 2>/dev/null; do
-  minute=$(awk "BEGIN { printf \"%.1f\", ($SECONDS - $begun) / 60 }")
-  for process in "$run" $(cat "/proc/$run/task/$run/children" 2>/dev/null); do
-    name=$(cat "/proc/$process/comm" 2>/dev/null) || continue
-    memory=$(memory_of "$process")
-    descriptors=$(find "/proc/$process/fd" -mindepth 1 2>/dev/null | wc -l)
-    [ -z "$memory" ] || [ "$descriptors" = 0 ] ||
-      printf '%8s %-18s %12s %12s\n' "$minute" "$name" "$memory" "$descriptors" |
-      tee -a "$place/table"
+  minute=$(minutes_since "$begun")
+  for process in "$run" $(children_of "$run"); do
+    held_by "$minute" "$process" | tee -a "$place/table"
   done
   [ $((SECONDS - begun)) -lt $((minutes * 60)) ] || kill "$run"
-  for ((i = 0; i < 60; i++)); do
-    kill -0 "$run" 2>/dev/null || break
-    sleep 1
-  done
+  wait_while_alive 60 "$run"
 done
 status=0
 wait "$run" || status=$?
 run=
 [ $status -le 1 ] || { cat "$place/said" >&2; broken "hil ends with status $status"; }  # 1: ended here
-awk '{ if (!($2 in n)) { order[++names] = $2 }
-       n[$2]++; at[$2, n[$2]] = $1; memory[$2, n[$2]] = $3; held[$2, n[$2]] = $4 }
-     END {
-       for (k = 1; k <= names; k++) {
-         name = order[k]; half = int((n[name] + 1) / 2); last = n[name]
-         hours = (at[name, last] - at[name, half]) / 60
-         if (last < 3 || hours <= 0) { print "too short to judge"; exit 1 }
-         growth = (memory[name, last] - memory[name, half]) / hours
-         printf "%s: %.0f KiB an hour over the second half, %d descriptors more\n", name, growth,
-                held[name, last] - held[name, half]
-         bad = bad || (name != "lodesman-bench" && (growth > 1024 || held[name, last] > held[name, half]))
-       }
-       exit bad
-     }' "$place/table" || failed=1
+judge_growth "$place/table" lodesman-bench || failed=1
 exit $failed
