@@ -128,8 +128,7 @@ constexpr const char* kMakersAreAbsent =
 
 // Whether the makers' own library is installed; with CI=true it has to be.
 [[nodiscard]] bool makers_are_here() {
-  const bool here = fs::exists(fs::path{LODESMAN_MCAP_PACKAGES} / "node_modules") &&
-                    std::system("command -v node >/dev/null") == 0;
+  const bool here = fs::exists(fs::path{LODESMAN_MCAP_PACKAGES} / "node_modules" / "@mcap");
   if (!here && data_is_required()) {
     FAIL("CI=true, and " << kMakersAreAbsent);
   }
