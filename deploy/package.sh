@@ -72,7 +72,7 @@ if $reproduce; then
   exit
 fi
 quietly cmake --preset release
-quietly cmake --build --preset release --target lodesman lodesman-low lodesman-high lodesman-bench \
-  lodesman-devices
+quietly cmake --build --preset release --target lodesman lodesman-low lodesman-high lodesman-recorder \
+  lodesman-bench lodesman-devices
 pack
 say "packages: $(cd $packages && echo *.deb *.ddeb)"

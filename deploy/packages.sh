@@ -17,6 +17,11 @@ gpsd_packages="gpsd gpsd-clients"
 # For deploy/package.sh, and for tests/system/booted_boat.sh, which boots what was packed.
 package_packages="dpkg-dev file help2man"
 booted_packages="iproute2 lintian mmdebstrap systemd-container"
+# For tests/system/booted_vm.sh, which boots it in a virtual machine.
+vm_packages="e2fsprogs iproute2 mmdebstrap openssh-client qemu-system-x86 qemu-utils socat"
+# For tests/system/recorder.cpp, which reads recordings with npm's packages too, where
+# tests/system/mcap/install.sh has installed them.
+recording_packages="nodejs npm"
 # For lodesman rt-test (its load, and cyclictest beside it) and for what is measured under load.
 load_packages="stress-ng rt-tests"
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "deploy/boat/level_options.h"
+#include "deploy/boat/recorder_settings.h"
 #include "high_level/mission/network.h"
 #include "mid_level/config/read_speed_table.h"
 
@@ -118,6 +119,7 @@ namespace {
   config.devices = read_devices(root.table("devices"));
   config.command_socket = read_command_socket(root.table("command_socket"));
   config.simulation = read_simulation(root.table("simulation"));
+  static_cast<void>(read_recorder(root.table("recorder")));
   config.origin = read_origin(root.table("origin"));
   config.position = read_position_source(root.table("estimator"));
   config.mission = read_mission_defaults(root.table("mission"));

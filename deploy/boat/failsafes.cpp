@@ -46,11 +46,13 @@ std::vector<Failsafe> failsafes() {
       {"commands, as the thruster box sees it", MaestroOptions{}.time_out,
        "the box stops both thrusters by itself (its own setting, which is proved)",
        "device `thrusters`, once it speaks again"},
-      {"thruster box, gone", kArmedMemory, "the thrusters are disarmed",
-       "thrust `disarmed` by `box_lost`, device `thrusters`"},
-      {"thruster box, there and not ready", trial, "the thrusters are disarmed", "the same"},
+      {"thruster box, gone", kArmedMemory, "the thrusters are disarmed, and the mission is aborted",
+       "thrust `disarmed` by `box_lost`, device `thrusters`; mission `aborted` by `disarmed`"},
+      {"thruster box, there and not ready", trial, "the same", "the same"},
       {"lodesman-low, before it is started again", kArmedMemory,
-       "it comes back disarmed; before that as it was, with neutral first", "log of lodesman-low"},
+       "it comes back disarmed, and the mission is aborted; before that as it was, with neutral "
+       "first",
+       "log of lodesman-low; mission `aborted` by `disarmed`"},
       {"battery volts", BatteryMonitor::kSilence_max, "its level is unknown; nothing else",
        "`battery` in `status`"},
   };

@@ -37,6 +37,9 @@ std::string HighStatusLine::text(bool low_is_alive) {
   const auto* mission = mission_.latest();
   std::string line = "mission ";
   line += mission != nullptr ? to_string(mission->value.state) : "unknown";
+  if (mission != nullptr && mission->value.cause != MissionCause::kOrder) {
+    line += std::string{" ("} + to_string(mission->value.cause) + ")";
+  }
   return low_is_alive ? line : line + "; neutral: lodesman-low is gone";
 }
 

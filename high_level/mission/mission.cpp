@@ -164,6 +164,13 @@ void Mission::watch_link(const CommandLink& link, const WorldPoint& position, Ti
   }
 }
 
+void Mission::end_disarmed(Time now) noexcept {
+  if (under_way() || holding()) {
+    status_.ended = now;
+    abort(status_.aborts, MissionCause::kDisarmed);
+  }
+}
+
 // To where it set out from, as a mission of its own.
 void Mission::go_back(const WorldPoint& position, Time now) noexcept {
   const WorldPoint from = home();

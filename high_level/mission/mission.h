@@ -67,6 +67,10 @@ class Mission {
   void hold(const WorldPoint& position, MissionCause cause) noexcept;
   // What the mission says of a link that was open and has been silent for its time; once.
   void watch_link(const CommandLink& link, const WorldPoint& position, Time now) noexcept;
+  // The thrusters were disarmed, and by nobody's word: as where that is ordered, it is aborted,
+  // under way or held. What is sailed without thrust must not go on once there is thrust again, and
+  // as long as it asks for thrust nobody can arm.
+  void end_disarmed(Time now) noexcept;
   // No mission is sailed faster than this from here on.
   void limit_speed(double speed_m_s) noexcept;
   // Progress by the estimated position, which the mission itself takes for true.

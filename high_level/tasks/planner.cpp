@@ -62,6 +62,7 @@ PlannerTask::PlannerTask(Blackboard& board, Role role, PlannerOptions options)
       plan_{board.plan},
       helm_{board.helm_command},
       thrust_applied_{board.thrust_applied},
+      thrust_status_{board.thrust_status},
       requests_{writer_of(board, board.path_request, role)},
       plans_{writer_of(board, board.plan, role)},
       statuses_{writer_of(board, board.mission_status, role)} {
@@ -148,6 +149,7 @@ void PlannerTask::step(Time now) noexcept {
   take_tunables();
   take_orders(now);
   watch_link(now);
+  watch_thrusters(now);
   sail_as_the_mission_says(now);
   if (state != nullptr) {
     mission_.advance(position_, now);
@@ -208,6 +210,18 @@ void PlannerTask::take_tunables() noexcept {
 void PlannerTask::watch_link(Time now) noexcept {
   if (const auto* link = link_.latest(); link != nullptr) {
     mission_.watch_link(link->value, position_, now);
+  }
+}
+
+// What was off when the mission was started is armed by the start itself, or the boat sails dry.
+void PlannerTask::watch_thrusters(Time now) noexcept {
+  const auto* thrust = thrust_status_.latest();
+  const auto* applied = thrust_applied_.latest();
+  const bool none = applied != nullptr && applied->value.reason == ThrustReason::kNoThrusters;
+  if (thrust != nullptr && !none && is_off(thrust->value.state) &&
+      thrust->value.cause != ThrustCause::kOrder &&
+      thrust->value.since > mission_.status().started) {
+    mission_.end_disarmed(now);
   }
 }
 

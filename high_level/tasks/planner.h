@@ -26,7 +26,8 @@ class PlannerTask final : public Task {
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override {
     return refused_by(definitions_, orders_, link_, tunables_, vehicle_state_, obstacles_, tracks_,
-                      sonar_path_, attitude_, position_fix_, plan_, helm_, thrust_applied_);
+                      sonar_path_, attitude_, position_fix_, plan_, helm_, thrust_applied_,
+                      thrust_status_);
   }
 
  private:
@@ -38,6 +39,7 @@ class PlannerTask final : public Task {
   void take_orders(Time now) noexcept;
   void take_tunables() noexcept;
   void watch_link(Time now) noexcept;
+  void watch_thrusters(Time now) noexcept;
   void sail_as_the_mission_says(Time now) noexcept;
   // What is known of the water: the tracks, and the mission's areas as walls.
   [[nodiscard]] const Tracks& with_areas(const Tracks& tracks, Time now) noexcept;
@@ -87,6 +89,7 @@ class PlannerTask final : public Task {
   Reader<Plan> plan_;
   Reader<HelmCommand> helm_;
   Reader<ThrustApplied> thrust_applied_;
+  Reader<ThrustStatus> thrust_status_;
   Writer<PathRequest> requests_;
   Writer<Plan> plans_;
   Writer<MissionStatus> statuses_;

@@ -60,9 +60,11 @@ enum class MissionCause : std::uint8_t {
   kAbsence,   // its process was frozen
   kLinkLost,  // the commander's heartbeat was lost
   kRestart,   // its process was started anew: what the mission says of that was done
+  kDisarmed,  // the thrusters were disarmed, and by nobody's word
 };
 [[nodiscard]] constexpr auto enumerators(MissionCause) noexcept {
-  return enumerators_to<MissionCause::kRestart>("order", "absence", "link_lost", "restart");
+  return enumerators_to<MissionCause::kDisarmed>("order", "absence", "link_lost", "restart",
+                                                 "disarmed");
 }
 
 // Why no way is made over ground though it is wanted.

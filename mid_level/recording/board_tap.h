@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Follows every channel of a blackboard and hands on each publication once, in its raw bytes, and
-// each number that it has not seen as a gap. poll() allocates nothing, waits for nothing and writes
-// nothing to the blackboard; one thread.
+// each number that it could not have as a gap, told by the same look that missed it. poll()
+// allocates nothing, waits for nothing and writes nothing to the blackboard; one thread.
 #pragma once
 
 #include <cstdint>
@@ -55,8 +55,11 @@ class PublicationSink {
 
 class BoardTap {
  public:
-  // `board` must outlive it. What its rings still hold is handed on too; what was before is no gap.
-  explicit BoardTap(const Blackboard& board);
+  // What was published, and is in no ring any more, before the tap came.
+  enum class Past : std::uint8_t { kNoGap, kGap };
+
+  // `board` must outlive it. What its rings still hold is handed on too.
+  explicit BoardTap(const Blackboard& board, Past past = Past::kNoGap);
   BoardTap(const BoardTap&) = delete;
   BoardTap& operator=(const BoardTap&) = delete;
   BoardTap(BoardTap&&) noexcept;

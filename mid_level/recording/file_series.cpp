@@ -68,6 +68,9 @@ std::filesystem::path FileSeries::next_name() {
 void FileSeries::open(Time now) {
   name_ = next_name();
   notes_.about["part"] = std::to_string(number_);
+  if (options_.renew_about) {
+    options_.renew_about(notes_.about);
+  }
   try {
     recording_ = std::make_unique<Recording>(make_file_(name_), notes_, now);
   } catch (const StartupError& error) {
@@ -184,6 +187,11 @@ void FileSeries::close() {
                     " could not be closed: " + std::generic_category().message(failed));
   }
   recording_.reset();
+}
+
+void FileSeries::begin_anew() {
+  close();
+  said_.assign(said_.size(), std::nullopt);
 }
 
 void FileSeries::tick(Time now) {

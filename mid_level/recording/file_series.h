@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,8 @@ struct SeriesOptions {
   std::uint64_t free_floor_bytes = 0;   // nothing is written where less is free
   Duration chunk_span{};                // a chunk is closed, and on the disk, after so long
   std::vector<std::string> said_again;  // channels whose last publication begins each later file
+  // Brings RecordingNotes::about up to date before each file; may be empty.
+  std::function<void(std::map<std::string, std::string>&)> renew_about = {};
 };
 
 enum class SeriesState : std::uint8_t {
@@ -49,6 +52,8 @@ class FileSeries {
   void tick(Time now);
   // Ends the file, if there is one; the next publication begins another.
   void close();
+  // The same, for what another blackboard publishes: of this one nothing is said again.
+  void begin_anew();
 
   [[nodiscard]] SeriesState state() const noexcept { return state_; }
   // The files that were closed and have their own name.

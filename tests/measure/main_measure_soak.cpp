@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -32,10 +33,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Duration kLookPeriod = std::chrono::milliseconds{20};
-constexpr double kOrderAgain_s = 2.0;       // a start that was refused is given again
-constexpr double kGrowth_max_kib = 2048.0;  // from the first hour on, or the first half
-constexpr double kSettled_s = 3600.0;
-constexpr std::uint64_t kSequence_max = std::uint64_t{1} << 32U;  // far below what wraps
+constexpr double kOrderAgain_s = 2.0;  // a start that was refused is given again
+constexpr double kSettled_s = 3600.0;  // or half the soak
 
 [[nodiscard]] double resident_kib() {
   std::ifstream file{"/proc/self/statm"};
@@ -260,12 +259,6 @@ struct Totals {
   }
 };
 
-struct Held {
-  double at_s = 0.0;
-  double resident_kib = 0.0;
-  std::ptrdiff_t descriptors = 0;
-};
-
 [[nodiscard]] Held held_now(const Boat& boat) {
   return {to_seconds(boat.now() - Time{}), resident_kib(), open_descriptors()};
 }
@@ -296,9 +289,11 @@ struct Held {
              settled.at_s / 3600.0, settled.resident_kib, last.resident_kib);
   fmt::print("| open descriptors, likewise | {}, {} |\n", settled.descriptors, last.descriptors);
   fmt::print("| times real time | {:.0f} |\n", sailed_s / took_s);
-  return totals.unsaid == 0 && sequence < kSequence_max &&
-         last.resident_kib - settled.resident_kib < kGrowth_max_kib &&
-         last.descriptors <= settled.descriptors;
+  const auto reasons = objections({totals.unsaid, sequence, settled, last});
+  for (const std::string& reason : reasons) {
+    fmt::print(stderr, "measure_soak: {}\n", reason);
+  }
+  return reasons.empty();
 }
 
 [[nodiscard]] int run(double minutes, std::uint64_t seed, const std::string& rows_file) {

@@ -1,16 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/measure/soak_judge.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace lodesman::measure {
 namespace {
 
 constexpr Duration kStop = std::chrono::seconds{30};
-constexpr double kWay_m = 1.0;                            // is way, in that time
-constexpr Duration kSaid_max = std::chrono::seconds{15};  // ago: the boat's own patience
+constexpr double kWay_m = 1.0;                                    // is way, in that time
+constexpr Duration kSaid_max = std::chrono::seconds{15};          // ago: the boat's own patience
+constexpr double kGrowth_max_kib = 2048.0;                        // once it has settled
+constexpr std::uint64_t kSequence_max = std::uint64_t{1} << 32U;  // far below what wraps
 
 }  // namespace
+
+std::vector<std::string> objections(const SoakFigures& figures) {
+  std::vector<std::string> reasons;
+  if (figures.unsaid > 0) {
+    reasons.push_back(fmt::format("stood still {} times without saying why", figures.unsaid));
+  }
+  const double grown_kib = figures.last.resident_kib - figures.settled.resident_kib;
+  if (grown_kib >= kGrowth_max_kib) {
+    reasons.push_back(fmt::format("grew by {:.0f} KiB", grown_kib));
+  }
+  if (figures.last.descriptors > figures.settled.descriptors) {
+    reasons.push_back(fmt::format("holds {} descriptors more",
+                                  figures.last.descriptors - figures.settled.descriptors));
+  }
+  if (figures.highest_sequence >= kSequence_max) {
+    reasons.push_back(fmt::format("counted as far as {}", figures.highest_sequence));
+  }
+  return reasons;
+}
 
 SoakJudge::SoakJudge(const Blackboard& board)
     : truth_{board.world_truth},
@@ -28,12 +51,13 @@ void SoakJudge::begin_leg(Time now) {
 }
 
 void SoakJudge::look(Time now) {
+  // First of all: whether a contact is one under way is for the mission of now to say.
+  if (const auto* mission = mission_.latest()) {
+    status_ = mission->value;
+  }
   while (const auto* truth = truth_.next()) {
     at_ = truth->value;
     note_contact(at_);
-  }
-  if (const auto* mission = mission_.latest()) {
-    status_ = mission->value;
   }
   if (const auto* plan = plan_.latest()) {
     rung_ = plan->value.rung;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Looks on at a boat that sails one mission after the other: what came of each, whether it ever
-// stood still without saying why, and what it ran into. One thread.
+// stood still without saying why, and what it ran into; and judges what the program held while it
+// did. One thread.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <map>
 #include <string>
+#include <vector>
 
 #include "mid_level/blackboard/blackboard.h"
 
@@ -20,6 +22,24 @@ struct LegOutcome {
   unsigned contacts = 0;  // with obstacles, under way
   unsigned contacts_at_rest = 0;
 };
+
+// What the program holds at one time.
+struct Held {
+  double at_s = 0.0;  // [s] of the boat's time
+  double resident_kib = 0.0;
+  std::ptrdiff_t descriptors = 0;
+};
+
+// Of a whole soak. Contacts are none of it: what moves is not foreseen.
+struct SoakFigures {
+  unsigned unsaid = 0;                 // stops without a reason
+  std::uint64_t highest_sequence = 0;  // that any channel has come to
+  Held settled;                        // once all have what they keep
+  Held last;
+};
+
+// What speaks against it, in words; nothing where it holds.
+[[nodiscard]] std::vector<std::string> objections(const SoakFigures& figures);
 
 class SoakJudge {
  public:

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The package in a booted machine (systemd-nspawn): installed, its services up with real drivers on
-# emulated devices, a mission sailed, both programs killed and frozen, an upgrade refused under way and
-# done when held, and nothing left by a purge. Prints a table of times, and fails at the first thing that
+# emulated devices, a mission sailed from another network, both programs killed and frozen and a task of
+# each made to hang, an upgrade refused under way and done when held, and nothing left by a purge. Prints a table of times, and fails at the first thing that
 # is not as it should be. Wants root, and packages as deploy/packages.sh names them.
 #   tests/system/booted_boat.sh [KILLS]     of each program, 20 without it
 set -euo pipefail
@@ -17,39 +17,28 @@ kills=${1:-20}
 sonar_port=4040
 place=$(mktemp -d)
 network=lodesman-$$
+shore=$network-shore
+# Of a network that is kept for examples (RFC 5737).
+boat_address=192.0.2.1
+shore_address=192.0.2.2
 devices=
 
 clean_up() {
   power_off
   [ -z "$devices" ] || { kill "$devices" 2>/dev/null && wait "$devices" 2>/dev/null; } || true
   ip netns del "$network" 2>/dev/null || true
+  ip netns del "$shore" 2>/dev/null || true
   rm -rf "$place"
 }
 trap clean_up EXIT
 trap 'exit 130' INT TERM HUP
 
-# row <what> <milliseconds...>: of the table: how often, the median and the worst.
-row() {
-  local what=$1
-  shift
-  printf '%s\n' "$@" | sort -n | awk -v what="$what" '{ v[NR] = $1 / 1000 }
-    END { printf "| %s | %d | %.2f | %.2f |\n", what, NR, v[int((NR + 1) / 2)], v[NR] }' >>"$place/table"
+# boat_says: all that `lodesman status` has, on one line; nothing where the boat does not answer.
+boat_says() {
+  inside lodesman status --json 2>/dev/null | tr -d ' \n'
 }
-
-# said <key>: of `lodesman status`, as it stands there; nothing where the boat does not answer.
-said() {
-  inside lodesman status --json 2>/dev/null | tr -d ' \n' | sed -n "s/^{.*\"$1\":\"\?\([^\",}]*\).*/\1/p"
-}
-mission_is() {
-  [ "$(inside lodesman status --json 2>/dev/null | tr -d ' \n' |
-    grep -o '"state":"[a-z_]*"' | head -n 1)" = "\"state\":\"$1\"" ]
-}
-device_is() { # device_is <device> <words in what is said of it>
-  inside lodesman status --json | tr -d ' \n' | grep -q "\"$1\":{[^}]*$2"
-}
-# Nothing is missing for a start but the arming.
-ready_to_arm() {
-  inside lodesman status --json | tr -d ' \n' | grep -q '"against_arming":\[\]'
+ready_to_start() {
+  inside lodesman status --json | tr -d ' \n' | grep -q '"not_ready":\[\]'
 }
 can_start() {
   inside lodesman goto "$1" --speed "$2"
@@ -67,9 +56,23 @@ under_way() {
   mission_is under_way || can_start -30,0 0.22
 }
 
-start_devices() {
+# The boat's network, and the shore's, which knows of the boat nothing but an address.
+join_networks() {
   ip netns add "$network"
+  ip netns add "$shore"
+  ip -n "$shore" link add boat type veth peer name shore netns "$network"
+  ip -n "$network" addr add $boat_address/30 dev shore
+  ip -n "$shore" addr add $shore_address/30 dev boat
   ip -n "$network" link set lo up
+  ip -n "$network" link set shore up
+  ip -n "$shore" link set boat up
+}
+# ashore <word> <option...>: the operator's command of this machine, to the boat over that network.
+ashore() {
+  timeout 120 nsenter --net="/run/netns/$shore" build/release/bin/lodesman "$@" --host $boat_address
+}
+
+start_devices() {
   mkdir "$place/ports"
   nsenter --net="/run/netns/$network" build/release/bin/lodesman-devices --scenario paper-static \
     --segment "lodesman-booted-$$" --ports "$place/ports" --sonar-port $sonar_port 2>"$place/devices.log" &
@@ -83,6 +86,7 @@ start_devices() {
 }
 
 bring_up() {
+  join_networks
   start_devices
   local start
   start=$(now_ms)
@@ -116,7 +120,13 @@ install_it() {
 
 # As the units stand, the ports of this machine, which are ptys, are none of the boat's.
 meet_devices() {
-  boat_toml $sonar_port >"$place/root/etc/lodesman/boat.toml"
+  inside lodesman token --new /etc/lodesman/boat.token >/dev/null || fail "no token is made"
+  [ "$(inside stat -c %G:%a /etc/lodesman/boat.token)" = lodesman:640 ] || fail "the token is not the boat's to read"
+  install -m 600 "$place/root/etc/lodesman/boat.token" "$place/boat.token"
+  {
+    boat_toml $sonar_port
+    printf '\n[command_socket]\naddress = "0.0.0.0"\ntoken_file = "/etc/lodesman/boat.token"\n'
+  } >"$place/root/etc/lodesman/boat.toml"
   inside lodesman check /etc/lodesman/boat.toml >/dev/null || fail "boat.toml is refused"
   inside systemctl restart lodesman.target
   wait_until 20 device_is heading no_permission || fail "a port that is not on the list of the unit was opened: $(inside lodesman status 2>&1; inside systemctl status --no-pager lodesman-low lodesman-high; inside journalctl --no-pager -o cat -u lodesman-low -u lodesman-high | tail -30)"
@@ -144,13 +154,20 @@ meet_devices() {
     fail "the journal does not name device and fault"
 }
 
+# From the shore, which arms too, and which has to hold the boat's own token for it.
 sail() {
-  inside lodesman arm >/dev/null || fail "it does not arm"
+  build/release/bin/lodesman token --new "$place/strange.token" >/dev/null
+  ashore arm >"$place/said" 2>&1 && fail "it is armed from another network without a token"
+  ashore arm --token-file "$place/strange.token" >"$place/said" 2>&1 && fail "it is armed by another boat's token"
+  ashore arm --token-file "$place/boat.token" >"$place/said" 2>&1 || fail "it does not arm: $(cat "$place/said")"
+  wait_until 20 ready_to_start || fail "it is not ready: $(inside lodesman status --json)"
+  printf 'goal_m = [0.0, 16.0]\nspeed_m_s = 0.74\n' >"$place/pond.toml"
   local start
-  wait_until 20 can_start 0,16 0.74 || fail "it does not start: $(inside lodesman goto 0,16 --speed 0.74 2>&1)"
   start=$(now_ms)
-  wait_until 120 mission_is reached || fail "it does not arrive: $(inside lodesman status --json)"
-  row "a mission of 16 m past a rock, at 0.74 m/s" $(($(now_ms) - start))
+  ashore start --mission "$place/pond.toml" --follow --token-file "$place/boat.token" >"$place/said" 2>&1 ||
+    fail "it does not arrive: $(cat "$place/said"; inside lodesman status --json)"
+  row "\`lodesman start --host\` from another network, until that says it is reached: 16 m past a rock, 0.74 m/s" \
+    $(($(now_ms) - start))
 }
 
 # interrupt <signal> <low or high> <times> <title>
@@ -172,6 +189,28 @@ interrupt() {
   done
   row "$4, until the service is up" "${up[@]}"
   row "$4, until $([ "$2" = low ] && echo 'its thruster box works' || echo 'it answers')" "${whole[@]}"
+}
+
+# hang <low or high> <task>: one task of a program whose others go on.
+hang() {
+  local before start holder watchdogs
+  wait_until 20 under_way || fail "it does not sail again: $(inside lodesman status --json 2>&1)"
+  before=$(process_of "$1")
+  watchdogs=$(watchdogs_of "$1")
+  inside /srv/package/hang_task "$before" "$2" >"$place/hang" 2>&1 &
+  holder=$!
+  wait_until 5 grep -q hangs "$place/hang" || fail "no task hangs: $(cat "$place/hang")"
+  start=$(now_ms)
+  sleep 1
+  [ "$(process_of "$1")" = "$before" ] || fail "lodesman-$1 does not live while its task hangs"
+  wait_until 20 is_back "$1" "$before" || fail "lodesman-$1 does not come back after a task that hangs"
+  row "task \`$2\` of \`lodesman-$1\` hangs, until the service is up" $(($(now_ms) - start))
+  wait "$holder" || fail "the task did not hang until the end"
+  [ "$(watchdogs_of "$1")" -gt "$watchdogs" ] || fail "it was not the watchdog that ended lodesman-$1"
+  inside journalctl -u "lodesman-$1" -o cat --no-pager | grep -q "$2 hangs" || fail "nobody says which task hangs"
+}
+watchdogs_of() {
+  inside journalctl -u "lodesman-$1" -o cat --no-pager | grep -c "Watchdog timeout" || true
 }
 
 # Pages and completion say what the programs say: each word has its page, with each of its options.
@@ -201,12 +240,26 @@ completes() { # completes <what> <words so far...>
 
 judge_exposure() {
   local program
-  for program in low high; do
+  for program in low high recorder; do
     inside systemd-analyze security --no-pager "lodesman-$program.service" >"$place/exposure" || true
     grep -o "Overall.*: [0-9.]*" "$place/exposure"
     inside systemd-analyze security --no-pager --threshold=20 "lodesman-$program.service" >/dev/null ||
       fail "the exposure of lodesman-$program: $(cat "$place/exposure")"
   done
+}
+
+# The black box is closed by a stop, and every one is the boat's alone.
+judge_recordings() {
+  local news
+  inside systemctl stop lodesman-recorder
+  news=$(inside journalctl -u lodesman-recorder -o cat --no-pager)
+  grep -q "^recorded [1-9][0-9]* publications" <<<"$news" || fail "nothing was recorded: $news"
+  grep "^recorded " <<<"$news"
+  inside sh -c 'ls /var/lib/lodesman/recordings/*.mcap && ! ls /var/lib/lodesman/recordings/*.part' >/dev/null 2>&1 ||
+    fail "a recording was not closed: $news"
+  [ "$(inside sh -c 'stat -c %U:%a /var/lib/lodesman/recordings/*.mcap' | sort -u)" = lodesman:640 ] ||
+    fail "the recordings are not the boat's alone"
+  inside systemctl start lodesman-recorder
 }
 
 upgrade_it() {
@@ -240,11 +293,15 @@ purge_it() {
   diff "$place/before" "$place/after" >&2 || fail "a purge does not leave what was there before"
   inside sh -c 'test -z "$(ls /dev/shm /run/lodesman 2>/dev/null | grep -v :)"' || fail "something is left in /dev/shm or /run"
   inside sh -c '! getent passwd lodesman && ! getent group lodesman' || fail "the user is left"
-  inside sh -c '! systemctl --no-legend list-units --all "lodesman*" | grep .' || fail "units are left"
+  # systemd forgets a unit whose file is gone when it has nothing else to do.
+  wait_until 5 inside sh -c '! systemctl --no-legend list-units --all "lodesman*" | grep -q .' ||
+    fail "units are left: $(inside systemctl --no-legend list-units --all "lodesman*")"
 }
 
 [ "$(id -u)" -eq 0 ] || fail "wants root"
 install_packages $package_packages $booted_packages
+quietly cmake --preset release
+quietly cmake --build --preset release --target hang_task
 deploy/package.sh --release 2
 cp build/release/package/lodesman_*-2_*.deb "$place/2.deb"
 deploy/package.sh
@@ -258,7 +315,7 @@ start=$(now_ms)
 make_root "$place/root" systemd-sysv dbus $(needs_of "$place/1.deb") || fail "no root directory of Debian could be made"
 row "a root directory of Debian" $(($(now_ms) - start))
 mkdir "$place/root/srv/package"
-cp "$place"/[12].deb "$place/root/srv/package/"
+cp "$place"/[12].deb build/release/bin/hang_task "$place/root/srv/package/"
 bring_up
 install_it
 judge_words
@@ -269,10 +326,11 @@ interrupt KILL high "$kills" "lodesman-high killed"
 interrupt KILL low "$kills" "lodesman-low killed"
 interrupt STOP high 1 "lodesman-high frozen"
 interrupt STOP low 1 "lodesman-low frozen"
+hang high planner
+hang low delta_t
+wait_until 20 device_is sonar '"status":"working"' || fail "the sonar does not come back"
+judge_recordings
 upgrade_it
 purge_it
-echo
-echo "| in the booted machine | times | median s | worst s |"
-echo "|---|---|---|---|"
-cat "$place/table"
+print_table "in the booted machine"
 say "the boat in a booted machine: all as it should be"

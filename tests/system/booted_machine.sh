@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # A Debian of the boat's own, for what boots it: its root directory, the boat's configuration on emulated
-# devices, and a machine of it under systemd-nspawn. To be sourced by bash; wants root.
+# devices, what the boat says of itself, the table of times, and a machine of it under systemd-nspawn. To
+# be sourced by bash, with a directory of the run's in `place`; wants root.
 
 # fail <word...>: what went wrong, and the end.
 fail() {
@@ -17,30 +18,33 @@ needs_of() {
 }
 
 # make_root <directory> <package...>: this machine's own release of Debian with these packages, from
-# this machine's own sources, of which it keeps none: it is offline.
+# this machine's own sources, of which it keeps none: it is offline. mmdebstrap is given `root_options`
+# too, where there are any.
+root_options=()
 make_root() {
   local root=$1 sources=/etc/apt/sources.list.d/debian.sources
   shift
   [ -f "$sources" ] || sources=/etc/apt/sources.list
   # shellcheck disable=SC2016  # the hook has a shell of its own
   mmdebstrap --quiet --mode=root --variant=minbase --format=directory \
-    --aptopt='APT::Install-Recommends "false"' --include="$(IFS=, && echo "$*")" \
+    --aptopt='APT::Install-Recommends "false"' --include="$(IFS=, && echo "$*")" "${root_options[@]}" \
     --customize-hook='rm -rf "$1"/etc/apt/sources.list "$1"/etc/apt/sources.list.d/*' \
     "$(. /etc/os-release && echo "$VERSION_CODENAME")" "$root" - <"$sources"
 }
 
-# boat_toml: the boat's configuration on the devices of lodesman-devices. Real drivers all of them; the
-# program of the sonar is on this computer, on the port that is named.
+# boat_toml <port> [<host> [<ahrs> <position> <thrusters>]]: the boat's configuration on the devices of
+# lodesman-devices. Real drivers all of them; the sonar's program is on that host, without it this
+# computer, and sends to that port; the serial ports are those, or the names in /dev/lodesman.
 boat_toml() {
   cat <<END
 [boat]
 name = "booted"
 
 [devices]
-heading = "nav440:/dev/lodesman/ahrs"
-sonar = "delta_t:127.0.0.1?port=$1"
-position = "nmea:/dev/lodesman/gps?baud=38400"
-thrusters = "maestro:/dev/lodesman/thrusters"
+heading = "nav440:${3:-/dev/lodesman/ahrs}"
+sonar = "delta_t:${2:-127.0.0.1}?port=$1"
+position = "nmea:${4:-/dev/lodesman/gps}?baud=38400"
+thrusters = "maestro:${5:-/dev/lodesman/thrusters}"
 END
 }
 
@@ -84,6 +88,32 @@ power_off() {
   [ -d /run/systemd/system ] ||
     find /sys/fs/cgroup/unified /sys/fs/cgroup/systemd -mindepth 1 -depth -type d -empty \
       -exec rmdir {} \; 2>/dev/null || true
+}
+
+# row <what> <milliseconds...>: of the table: how often, the median and the worst.
+row() {
+  local what=$1
+  shift
+  printf '%s\n' "$@" | sort -n | awk -v what="$what" '{ v[NR] = $1 / 1000 }
+    END { printf "| %s | %d | %.2f | %.2f |\n", what, NR, v[int((NR + 1) / 2)], v[NR] }' >>"$place/table"
+}
+
+# print_table <where>: of all rows.
+print_table() {
+  printf '\n| %s | times | median s | worst s |\n|---|---|---|---|\n' "$1"
+  cat "$place/table"
+}
+
+# Of what `boat_says`, which whoever sources this file defines: `lodesman status --json` on one line.
+mission_is() {
+  [ "$(boat_says | grep -o '"state":"[a-z_]*"' | head -n 1)" = "\"state\":\"$1\"" ]
+}
+device_is() { # device_is <device> <words in what is said of it>
+  boat_says | grep -q "\"$1\":{[^}]*$2"
+}
+# Nothing is missing for a start but the arming.
+ready_to_arm() {
+  boat_says | grep -q '"against_arming":\[\]'
 }
 
 # now_ms, and wait_until <seconds> <command...>: true as soon as the command is.

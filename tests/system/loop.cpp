@@ -352,7 +352,7 @@ TEST_CASE("loop: twenty seconds of a fault cost no collision, and the run says h
         if (row.arrives) {
           CHECK(result.outcome == "goal");
         } else if (result.outcome != "goal") {
-          CHECK(result.outcome == "time_limit");
+          CHECK(result.outcome == "aborted");
           REQUIRE_FALSE(result.notices.empty());
           CHECK(result.notices.front().text.find("thruster box") != std::string::npos);
         }

@@ -2,6 +2,7 @@
 // The tests that the documents cite, word for word, and those that there are.
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 #include "tests/tidy/rules.h"
 
@@ -57,7 +58,47 @@ namespace {
   return span;
 }
 
+[[nodiscard]] bool cites_one_of(const std::string& cell, const std::set<std::string>& names) {
+  for (std::size_t open = cell.find('`'); open != std::string::npos;) {
+    const std::size_t close = cell.find('`', open + 1);
+    if (close == std::string::npos) {
+      return false;
+    }
+    if (names.contains(cell.substr(open + 1, close - open - 1))) {
+      return true;
+    }
+    open = cell.find('`', close + 1);
+  }
+  return false;
+}
+
 }  // namespace
+
+Findings threats_without_tests(const std::vector<SourceFile>& tree) {
+  const std::set<std::string> names = test_names(tree);
+  Findings findings;
+  for (const SourceFile& file : tree) {
+    if (file.path != "docs/security.md") {
+      continue;
+    }
+    bool in_table = false;
+    std::istringstream lines{file.text};
+    std::string line;
+    for (std::size_t number = 1; std::getline(lines, line); ++number) {
+      const bool begins = line.ends_with("| test |");
+      in_table = line.starts_with("|") && (in_table || begins);
+      if (!in_table || begins || line.starts_with("|---")) {
+        continue;
+      }
+      const std::size_t cell = line.rfind(" | ");
+      if (cell == std::string::npos || (!line.substr(cell + 3).starts_with("the same") &&
+                                        !cites_one_of(line.substr(cell), names))) {
+        findings.push_back(file.path + ":" + std::to_string(number) + ": cites no test");
+      }
+    }
+  }
+  return findings;
+}
 
 Findings missing_tests(const std::vector<SourceFile>& tree) {
   const std::set<std::string> names = test_names(tree);

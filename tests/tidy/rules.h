@@ -57,4 +57,8 @@ struct Arrow {
 // A document cites a test by its whole name, in backquotes: "subject: sentence". Each must exist.
 [[nodiscard]] Findings missing_tests(const std::vector<SourceFile>& tree);
 
+// docs/security.md: a row of a table of threats whose last column is headed "test" cites one, or is
+// "the same" as the row above.
+[[nodiscard]] Findings threats_without_tests(const std::vector<SourceFile>& tree);
+
 }  // namespace lodesman::tidy

@@ -196,6 +196,17 @@ TEST_CASE("tidy: a cited test that does not exist is seen", "[tidy]") {
   CHECK(findings("`file:line: key: reason`, `a.b: c d`, `name: word`, path: one two\n") == 0);
 }
 
+TEST_CASE("tidy: a threat without a test is seen", "[tidy]") {
+  const SourceFile tests{"tests/a.cpp", "TEST_CASE(\"path: one is found\", \"[x]\") {}\n"};
+  const auto findings = [&](const std::string& rows) {
+    const std::string head = "| who | could | test |\n|---|---|---|\n";
+    return threats_without_tests({tests, {"docs/security.md", head + rows}}).size();
+  };
+  CHECK(findings("| a | b | `path: one is found` |\n| the same | c | the same, `d` |\n") == 0);
+  CHECK(findings("| a | b | `path: two are found` |\n| c | d | |\n| e | `f`, | by hand |\n") == 3);
+  CHECK(findings("\n| a | table without tests |\n") == 0);
+}
+
 TEST_CASE("tidy: comments, literals and blocks are told from code", "[tidy]") {
   const SourceFile file{"a.cpp",
                         "int a = 1'000; /* { */ // }\nauto b = \"{\\\"\"; auto c = '{';\n"};

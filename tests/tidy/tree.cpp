@@ -31,6 +31,12 @@ TEST_CASE("tidy: every test that a document cites exists", "[tidy]") {
   }
 }
 
+TEST_CASE("tidy: every threat has its test", "[tidy]") {
+  for (const std::string& finding : threats_without_tests(read_tree(LODESMAN_SOURCE_DIR))) {
+    FAIL_CHECK(finding);
+  }
+}
+
 TEST_CASE("docs: the table of rooms is the law's own", "[tidy][docs]") {
   std::vector<std::string> rows;
   for (const Arrow& arrow : arrows()) {

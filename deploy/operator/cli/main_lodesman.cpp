@@ -11,6 +11,7 @@
 #include "deploy/operator/cli/doctor_command.h"
 #include "deploy/operator/cli/operator_commands.h"
 #include "deploy/operator/cli/plan_command.h"
+#include "deploy/operator/cli/recover_command.h"
 #include "deploy/operator/cli/rt_test_command.h"
 #include "deploy/operator/cli/run_command.h"
 #include "deploy/operator/cli/thrust_commands.h"
@@ -36,6 +37,7 @@ int main(int argc, char** argv) {
   cli::add_plan_command(app, exit_status);
   cli::add_check_command(app, exit_status);
   cli::add_decode_command(app, exit_status);
+  cli::add_recover_command(app, exit_status);
   cli::add_watch_command(app, exit_status);
   cli::add_doctor_command(app, exit_status);
   cli::add_rt_test_command(app, exit_status);

@@ -20,6 +20,7 @@
 #include "deploy/operator/cli/common_options.h"
 #include "deploy/operator/cli/number_options.h"
 #include "deploy/operator/cli/view_saver.h"
+#include "deploy/operator/recorder/series_of_boat.h"
 #include "deploy/operator/report/output_file.h"
 #include "deploy/operator/report/plan_story.h"
 #include "deploy/operator/report/plots.h"
@@ -46,6 +47,7 @@ struct SimOptions {
   bool lockstep = false;
   bool no_images = false;
   bool wait_start = false;
+  bool record = false;
   std::string console = "off";
 };
 
@@ -158,17 +160,17 @@ class RunOutput {
       note(error.what());
     }
   }
-  // Whether all of it could be written, what was said included.
-  [[nodiscard]] bool is_whole() const noexcept { return !lost_ && !line_.failed(); }
-
- private:
+  // Of what others write: one line; empty where nothing is wrong.
   void note(const std::string& fault) {
     if (!fault.empty() && !lost_) {
       lost_ = true;
       line_.warn(fault);
     }
   }
+  // Whether all of it could be written, what was said included.
+  [[nodiscard]] bool is_whole() const noexcept { return !lost_ && !line_.failed(); }
 
+ private:
   RunFiles files_;
   ProgressLine line_;
   PlanStory story_;
@@ -176,6 +178,28 @@ class RunOutput {
   std::optional<ViewSaver> views_;
   bool lost_ = false;
 };
+
+constexpr const char* kRecording = "mission.mcap";
+
+// Of a run in lock-step; the other ways of running have lodesman-recorder.
+[[nodiscard]] std::unique_ptr<FileSeries> recording_of(const SimOptions& options,
+                                                       const BoatConfig& configuration,
+                                                       const fs::path& directory) {
+  if (!options.record) {
+    return nullptr;
+  }
+  return series_of_run(
+      configuration, directory / kRecording,
+      recording_notes(configuration, "lodesman sim", read_text(directory / "scenario.toml")),
+      Pace::kLockstep);
+}
+
+// Closes it. Empty where all is in the file.
+[[nodiscard]] std::string fault_of(FileSeries& recording) {
+  recording.close();
+  const auto news = recording.news();
+  return recording.has_failed() ? news.back() : "";
+}
 
 [[nodiscard]] RunRecord run(const SimOptions& options, const BoatConfig& configuration,
                             const Scenario& scenario, const fs::path& ports,
@@ -189,7 +213,11 @@ class RunOutput {
     output.show(progress);
   };
   if (options.lockstep) {
-    return run_lockstep({configuration, scenario, interrupted, show, on_plan, {}, on_row});
+    const auto recording = recording_of(options, configuration, directory);
+    RunRecord record = run_lockstep(
+        {configuration, scenario, interrupted, show, on_plan, {}, on_row, recording.get()});
+    output.note(recording ? fault_of(*recording) : "");
+    return record;
   }
   std::optional<std::vector<std::string>> bench_arguments;
   if (bench) {
@@ -197,7 +225,9 @@ class RunOutput {
   }
   return run_realtime({directory / "config.toml", directory / "scenario.toml", configuration,
                        scenario, bench_arguments, options.wait_start, interrupted, show, on_plan,
-                       on_row});
+                       on_row,
+                       options.record ? std::optional{directory / kRecording} : std::nullopt,
+                       [&output](const std::string& fault) { output.note(fault); }});
 }
 
 // What lodesman-low and lodesman-high are told too.
@@ -276,6 +306,8 @@ void add_options(CLI::App& command, SimOptions& options) {
       ->check(number_from(1.0, 1e6));
   command.add_flag("--no-images", options.no_images, "Neither sonar views nor plots");
   command.add_flag("--wait-start", options.wait_start, "Wait for `lodesman start`");
+  command.add_flag("--record", options.record,
+                   "Every publication into mission.mcap of the run directory");
   command.add_option("--console", options.console, "off")->check(CLI::IsMember({"off"}));
   add_common_options(command, options.common);
 }

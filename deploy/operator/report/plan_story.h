@@ -17,6 +17,10 @@ namespace lodesman::cli {
 // "no way made for 15 s: the thruster box takes no commands". for_s: [s] since when none was.
 [[nodiscard]] std::string describe(NoWayCause cause, double for_s);
 
+// Why a mission is over that nobody ended (MissionCause::kDisarmed).
+inline constexpr const char* kDisarmedWords =
+    "aborted: the thrusters were disarmed, for the thruster box or the low level was gone too long";
+
 class PlanStory {
  public:
   // The line for this plan; empty when it does the same about the same as the one before, or when

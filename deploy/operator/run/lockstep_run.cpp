@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/operator/run/lockstep_run.h"
 
+#include <optional>
+
+#include "deploy/operator/recorder/direct_recording.h"
 #include "mid_level/base/stopwatch.h"
 #include "mid_level/recording/recording_hash.h"
 #include "mid_level/runtime/run_lockstep.h"
@@ -44,12 +47,19 @@ RunRecord run_lockstep(const LockstepRun& run) {
   }
   watcher.on_row = run.on_row;
   RecordingHash hash{*board};
+  std::optional<DirectRecording> recording;
+  if (run.recording != nullptr) {
+    recording.emplace(*board, *run.recording);
+  }
   const Time limit = clock.now() + kStartPatience + from_seconds(run.scenario.time_limit_s);
   Time next_show = clock.now();
   Time next_poll = clock.now();
   while (!watcher.mission_ended() && clock.now() < limit && !run.interrupted()) {
     runner.step();
     hash.update();
+    if (recording) {
+      recording->update(clock.now());
+    }
     if (clock.now() < next_poll) {
       continue;
     }

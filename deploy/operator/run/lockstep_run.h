@@ -11,6 +11,10 @@
 #include "deploy/operator/run/watcher.h"
 #include "mid_level/runtime/task.h"
 
+namespace lodesman {
+class FileSeries;
+}  // namespace lodesman
+
 namespace lodesman::cli {
 
 struct LockstepRun {
@@ -26,6 +30,7 @@ struct LockstepRun {
   std::function<void(std::vector<TaskEntry>&)> on_tasks = {};
   // For each row of the trajectory; may be empty.
   std::function<void(const TrajectoryRow&)> on_row = {};
+  FileSeries* recording = nullptr;  // takes every publication; may be nullptr
 };
 
 // The record with its hash and real-time factor.

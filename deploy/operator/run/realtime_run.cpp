@@ -22,10 +22,11 @@ constexpr Duration kPollPeriod = std::chrono::milliseconds{20};
 constexpr Duration kProgressPeriod = std::chrono::milliseconds{200};
 constexpr Duration kSegmentPatience = std::chrono::seconds{5};
 constexpr Duration kStopPatience = std::chrono::seconds{2};
+constexpr Duration kRecorderPatience = std::chrono::seconds{20};  // to write what waits
 constexpr double kSilence_s = 1.0;  // so far scenario time may lag behind this program's own
 
-// Both processes, the bench where there is one, and the name they share. High is stopped first, so
-// that its last word is heard.
+// Both processes, the bench and the recorder where there are such, and the name they share. High is
+// stopped first, so that its last word is heard, and the recorder after both, to record the last.
 class TwoProcesses {
  public:
   explicit TwoProcesses(const RealtimeRun& run)
@@ -34,6 +35,11 @@ class TwoProcesses {
                                           "--config",         run.configuration_file.string(),
                                           "--scenario",       run.scenario_file.string(),
                                           "--stop-with-input"};
+    if (run.record) {
+      std::vector<std::string> recorder = common;
+      recorder.insert(recorder.end(), {"--out", run.record->string()});
+      recorder_ = std::make_unique<ChildProcess>("lodesman-recorder", recorder);
+    }
     if (run.bench) {
       std::vector<std::string> bench = common;
       bench.insert(bench.end(), {"--seed", std::to_string(run.scenario.seed)});
@@ -64,8 +70,9 @@ class TwoProcesses {
 
   // Which one died, and how; empty while both run. Throws StartupError where it is a refusal.
   [[nodiscard]] std::string fault(bool starting) {
-    for (auto* child : {bench_.get(), low_.get(), high_.get()}) {
-      if (child == nullptr || !child->ended()) {
+    // The boat sails on without a recorder.
+    for (auto* child : {recorder_.get(), bench_.get(), low_.get(), high_.get()}) {
+      if (child == nullptr || !child->ended() || (child == recorder_.get() && !starting)) {
         continue;
       }
       if (starting && child->exit_status() == kExitRefused) {
@@ -76,9 +83,21 @@ class TwoProcesses {
     return {};
   }
 
+  // Why the recording is not whole; empty where it is, or none was asked for. Once all are stopped.
+  [[nodiscard]] std::string recording_fault() {
+    if (!recorder_ || recorder_->exit_status() == kExitDone) {
+      return {};
+    }
+    return "lodesman-recorder: " + recorder_->ended().value_or("does not end") +
+           ": the recording is not whole";
+  }
+
   void stop() {
     high_->stop(kStopPatience);
     low_->stop(kStopPatience);
+    if (recorder_) {
+      recorder_->stop(kRecorderPatience);
+    }
     remove_dead_segment(segment_);
     if (bench_) {
       bench_->stop(kStopPatience);
@@ -100,7 +119,8 @@ class TwoProcesses {
   }
 
   std::string segment_;
-  std::unique_ptr<ChildProcess> bench_;  // where there is one
+  std::unique_ptr<ChildProcess> recorder_;  // where there is one
+  std::unique_ptr<ChildProcess> bench_;     // likewise
   std::unique_ptr<ChildProcess> low_;
   std::unique_ptr<ChildProcess> high_;
   std::jthread pulse_;
@@ -201,6 +221,9 @@ RunRecord run_realtime(const RealtimeRun& run) {
   const double took_s = to_seconds(stopwatch.elapsed());
   processes.stop();
   watcher.poll();
+  if (const std::string no = processes.recording_fault(); !no.empty() && run.on_recording_fault) {
+    run.on_recording_fault(no);
+  }
   return finished(run, watcher.finish(), took_s, fault);
 }
 

@@ -27,6 +27,10 @@ struct RealtimeRun {
   std::function<void(const Blackboard&, const Plan&, const SonarPath*, const PlanRecord&)> on_plan;
   // For each row of the trajectory; may be empty.
   std::function<void(const TrajectoryRow&)> on_row = {};
+  // The file of a recording, where there is to be one.
+  std::optional<std::filesystem::path> record = std::nullopt;
+  // Called once at the end with why a recording that was asked for is not whole; may be empty.
+  std::function<void(const std::string&)> on_recording_fault = {};
 };
 
 // A process that dies or falls silent is named in the record's `fault`, and the other one is

@@ -76,6 +76,9 @@ void RunWatcher::poll() {
 void RunWatcher::take_mission() {
   while (const auto* mission = mission_.next()) {
     note_progress(*mission);
+    if (mission->value.cause == MissionCause::kDisarmed && status_.cause != mission->value.cause) {
+      note(mission->stamp, kDisarmedWords);
+    }
     status_ = mission->value;
   }
 }
@@ -84,18 +87,19 @@ void RunWatcher::take_mission() {
 void RunWatcher::note_progress(const Stamped<MissionStatus>& mission) {
   const NoWayCause cause = mission.value.no_way;
   const bool over = cause == NoWayCause::kNone;
+  const double for_s = to_seconds(mission.stamp - mission.value.no_way_since);
   const bool known_better = cause == NoWayCause::kUnknown && told_cause_ != NoWayCause::kNone;
   if (cause == told_cause_ || known_better || ended_) {
     return;
   }
   told_cause_ = cause;
-  if (over && mission.value.state != MissionState::kUnderWay) {
-    return;
+  if (!over || mission.value.state == MissionState::kUnderWay) {
+    note(mission.stamp, over ? "makes way again" : cli::describe(cause, for_s));
   }
-  notice_ =
-      Notice{scenario_time_of(mission.stamp),
-             over ? "makes way again"
-                  : cli::describe(cause, to_seconds(mission.stamp - mission.value.no_way_since))};
+}
+
+void RunWatcher::note(Time stamp, const std::string& text) {
+  notice_ = Notice{scenario_time_of(stamp), text};
   if (record_.result.notices.size() < kMaxNotices) {
     record_.result.notices.push_back(*notice_);
   }
@@ -336,8 +340,6 @@ PlanRecord RunWatcher::describe(const Stamped<Plan>& published, const SonarPath*
 double RunWatcher::scenario_time_of(Time stamp) const noexcept {
   return status_.first_started == Time{} ? 0.0 : to_seconds(stamp - status_.first_started);
 }
-
-bool RunWatcher::mission_ended() const noexcept { return ended_; }
 
 RunProgress RunWatcher::progress() const {
   RunProgress progress;

@@ -43,7 +43,7 @@ class RunWatcher {
   // that comes later costs samples, which are counted, but never the nearest distance.
   void poll();
 
-  [[nodiscard]] bool mission_ended() const noexcept;  // reached or aborted
+  [[nodiscard]] bool mission_ended() const noexcept { return ended_; }  // reached or aborted
   [[nodiscard]] Time mission_started() const noexcept { return status_.first_started; }  // 0 before
   [[nodiscard]] RunProgress progress() const;
   // Called for each plan, with the answer of PathFinder that it was made from (or nullptr).
@@ -57,6 +57,7 @@ class RunWatcher {
  private:
   void take_mission();
   void note_progress(const Stamped<MissionStatus>& mission);
+  void note(Time stamp, const std::string& text);
   void take_truth();
   void take_commands();
   void take_plans();

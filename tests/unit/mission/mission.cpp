@@ -270,3 +270,36 @@ TEST_CASE("mission: a lost link does what the mission says, once, and only if it
     }
   }
 }
+
+TEST_CASE(
+    "mission: where the thrusters were disarmed by nobody's word it is over, and may be started",
+    "[high_level][mission]") {
+  for (const bool holds : {false, true}) {
+    Ordered ordered;
+    ordered.give(OperatorOrder::kStart, s(1));
+    if (holds) {
+      ordered.give(OperatorOrder::kHold, s(2));
+    }
+    ordered.mission.end_disarmed(s(3));
+    CHECK(ordered.state() == MissionState::kAborted);
+    CHECK(ordered.mission.status().cause == MissionCause::kDisarmed);
+    CHECK(ordered.mission.status().ended == s(3));
+    CHECK(ordered.mission.status().aborts == 0);  // nobody has ordered one
+    CHECK(ordered.give(OperatorOrder::kResume, s(4)) == OrderAnswer::kNotHolding);
+    CHECK(ordered.give(OperatorOrder::kStart, s(5)) == OrderAnswer::kObeyed);
+    CHECK(ordered.mission.under_way());
+    CHECK(ordered.mission.status().cause == MissionCause::kOrder);
+  }
+}
+
+TEST_CASE("mission: where none is sailed or held, thrusters that are disarmed are no news",
+          "[high_level][mission]") {
+  Ordered ordered;
+  ordered.mission.end_disarmed(s(1));
+  CHECK(ordered.state() == MissionState::kIdle);
+  ordered.give(OperatorOrder::kStart, s(2));
+  ordered.give(OperatorOrder::kAbort, s(3));
+  ordered.mission.end_disarmed(s(4));
+  CHECK(ordered.mission.status().cause == MissionCause::kOrder);
+  CHECK(ordered.mission.status().ended == s(3));
+}

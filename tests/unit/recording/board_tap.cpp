@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mid_level/recording/board_tap.h"
 
+#include <limits>
 #include <string>
 
 #include "mid_level/recording/raw_codec.h"
@@ -80,6 +81,47 @@ TEST_CASE("board tap: what was written over is a gap, what was before it came is
   CHECK(sink.gaps[0].last == 106);
   CHECK(sink.gaps[0].cause == GapCause::kOverwritten);
   CHECK(sink.taken.size() == 64 + 64);
+}
+
+TEST_CASE("board tap: what was published before a tap that is to have all is a gap",
+          "[recording]") {
+  const auto board = std::make_unique<Blackboard>();
+  auto helm = writer_of(*board, board->helm_command, Role::kHigh);
+  for (int i = 1; i <= 100; ++i) {
+    helm.publish({}, at(i));
+  }
+  BoardTap tap{*board, BoardTap::Past::kGap};
+  KeepingSink sink;
+  tap.poll(sink);
+  CHECK(sink.taken.size() == 64);
+  REQUIRE(sink.gaps.size() == 1);
+  CHECK(sink.gaps[0].first == 1);
+  CHECK(sink.gaps[0].last == 36);
+}
+
+TEST_CASE("board tap: what is not sane is a gap at once, be it the first or the last",
+          "[recording]") {
+  const auto board = std::make_unique<Blackboard>();
+  auto attitude = writer_of(*board, board->attitude, Role::kLow);
+  BoardTap tap{*board};
+  KeepingSink sink;
+  Attitude mad;
+  mad.yaw_rate_rad_s = std::numeric_limits<double>::quiet_NaN();
+  attitude.publish(mad, at(1));
+  tap.poll(sink);
+  tap.poll(sink);
+  REQUIRE(sink.gaps.size() == 1);
+  CHECK(sink.gaps[0].first == 1);
+  CHECK(sink.gaps[0].last == 1);
+  attitude.publish({}, at(2));
+  attitude.publish(mad, at(3));
+  tap.poll(sink);
+  attitude.publish({}, at(4));
+  tap.poll(sink);
+  CHECK(sink.taken.size() == 2);
+  REQUIRE(sink.gaps.size() == 2);
+  CHECK(sink.gaps[1].first == 3);
+  CHECK(sink.gaps[1].last == 3);
 }
 
 TEST_CASE("board tap: a sink without room loses what it refused and nothing else", "[recording]") {

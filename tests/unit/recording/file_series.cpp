@@ -151,6 +151,28 @@ TEST_CASE("file series: a large or old file is followed by another, which says t
   CHECK(std::is_sorted(all.begin(), all.end()));
 }
 
+TEST_CASE(
+    "file series: of another blackboard nothing is said again, and each file has news of its own",
+    "[recording]") {
+  Shelf shelf;
+  shelf.options.said_again = {"mission_definition"};
+  int files = 0;
+  shelf.options.renew_about = [&files](std::map<std::string, std::string>& about) {
+    about["now"] = std::to_string(++files);
+  };
+  FileSeries series = shelf.series();
+  publish(series, "mission_definition", 7, at(0));
+  series.begin_anew();
+  publish(series, "attitude", 1, at(100));
+  series.close();
+  const Contents before = contents_of(shelf.disks.at("boat.mcap").bytes);
+  CHECK(before.ending == McapEnding::kWhole);
+  CHECK(before.about.at("now") == "1");
+  const Contents after = contents_of(shelf.disks.at("boat-2.mcap").bytes);
+  CHECK(after.sequences.count("raw/mission_definition") == 0);
+  CHECK(after.about.at("now") == "2");
+}
+
 TEST_CASE("file series: below the floor nothing is written until there is room again",
           "[recording]") {
   Shelf shelf;

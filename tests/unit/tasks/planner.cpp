@@ -230,6 +230,66 @@ TEST_CASE("planner task: it says when no way is made and that the thrusters are 
   }
 }
 
+namespace {
+
+// Off since then, by what brought it there.
+[[nodiscard]] ThrustStatus off_since(Time since, ThrustCause cause) {
+  ThrustStatus status;
+  status.cause = cause;
+  status.since = since;
+  return status;
+}
+
+}  // namespace
+
+TEST_CASE("planner task: where a fault disarms under way the mission is over, and says so",
+          "[high_level][tasks]") {
+  for (const ThrustCause cause : {ThrustCause::kBoxLost, ThrustCause::kPowerUp}) {
+    for (const bool holds : {false, true}) {
+      Planner planner;
+      Writer<ThrustStatus> arming{planner.board->thrust_status, Role::kLow, "thrust_status"};
+      planner.order(OperatorOrder::kStart, kStart);
+      CHECK(planner.after_step(kStart) == MissionState::kUnderWay);
+      if (holds) {
+        planner.order(OperatorOrder::kHold, kStart + seconds{1});
+        CHECK(planner.after_step(kStart + seconds{1}) == MissionState::kHolding);
+      }
+      arming.publish(off_since(kStart + seconds{2}, cause), kStart + seconds{2});
+      CHECK(planner.after_step(kStart + seconds{2}) == MissionState::kAborted);
+      CHECK(planner.statuses.latest()->value.cause == MissionCause::kDisarmed);
+      // What is still off when it is started again is that start's to arm.
+      planner.order(OperatorOrder::kStart, kStart + seconds{3});
+      CHECK(planner.after_step(kStart + seconds{3}) == MissionState::kUnderWay);
+      CHECK(planner.statuses.latest()->value.cause == MissionCause::kOrder);
+      CHECK(planner.after_step(kStart + seconds{4}) == MissionState::kUnderWay);
+    }
+  }
+}
+
+TEST_CASE(
+    "planner task: thrusters that were off before, by a word or not there at all, end nothing",
+    "[high_level][tasks]") {
+  const Time later = kStart + seconds{2};
+  const struct {
+    ThrustStatus status;
+    ThrustReason reason;
+  } rows[] = {{off_since(kStart - seconds{1}, ThrustCause::kBoxLost), ThrustReason::kDisarmed},
+              {off_since(later, ThrustCause::kOrder), ThrustReason::kDisarmed},
+              {off_since(later, ThrustCause::kPowerUp), ThrustReason::kNoThrusters}};
+  for (const auto& row : rows) {
+    Planner planner;
+    Writer<ThrustStatus> arming{planner.board->thrust_status, Role::kLow, "thrust_status"};
+    Writer<ThrustApplied> applied{planner.board->thrust_applied, Role::kLow, "thrust_applied"};
+    planner.order(OperatorOrder::kStart, kStart);
+    CHECK(planner.after_step(kStart) == MissionState::kUnderWay);
+    ThrustApplied neutral;
+    neutral.reason = row.reason;
+    applied.publish(neutral, later);
+    arming.publish(row.status, later);
+    CHECK(planner.after_step(later) == MissionState::kUnderWay);
+  }
+}
+
 TEST_CASE(
     "planner task: a position that is lost is named in the plan with the time of the last fix",
     "[high_level][tasks]") {

@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: Apache-2.0
+// The black box on real runs: whole in real time and in lock-step, readable however it ended, and
+// read by its format's own makers.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "mid_level/recording/mcap_reader.h"
+#include "mid_level/recording/raw_codec.h"
+#include "mid_level/recording/recording.h"
+#include "tests/support/catch.h"
+#include "tests/support/data_dir.h"
+#include "tests/system/program.h"
+
+using namespace lodesman;
+using namespace lodesman::testing;
+using nlohmann::json;
+
+namespace {
+
+struct Topic {
+  std::uint64_t count = 0;
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+  bool contiguous = true;
+};
+
+struct Contents {
+  std::map<std::string, Topic> topics;
+  std::vector<json> gaps;
+  std::map<std::string, std::string> about;
+  std::map<std::string, std::string> attachments;
+  std::uint64_t chunks = 0;
+  std::uint64_t damaged = 0;
+  McapEnding ending = McapEnding::kOpen;
+
+  [[nodiscard]] std::uint64_t count(const std::string& topic) const {
+    const auto found = topics.find(topic);
+    return found == topics.end() ? 0 : found->second.count;
+  }
+};
+
+void take(Topic& topic, std::uint64_t sequence) {
+  topic.contiguous = topic.contiguous && (topic.count == 0 || sequence == topic.last + 1);
+  topic.first = topic.count == 0 ? sequence : topic.first;
+  topic.last = sequence;
+  ++topic.count;
+}
+
+[[nodiscard]] Contents contents_of(const fs::path& file) {
+  McapFileSource source{file};
+  McapReader reader{source};
+  Contents contents;
+  for (McapItem item = reader.next(); item != McapItem::kEnd; item = reader.next()) {
+    if (item == McapItem::kMessage) {
+      const McapMessage& message = reader.message();
+      const std::string& topic = reader.channel_by_id(message.channel)->topic;
+      take(contents.topics[topic], message.sequence);
+      if (topic == kGapsTopic) {
+        contents.gaps.push_back(json::parse(
+            std::string{reinterpret_cast<const char*>(message.data.data()), message.data.size()}));
+      }
+    } else if (item == McapItem::kMetadata) {
+      contents.about.insert(reader.metadata().values.begin(), reader.metadata().values.end());
+    } else if (item == McapItem::kAttachment) {
+      contents.attachments[reader.attachment().name] = reader.attachment().data;
+    }
+  }
+  contents.chunks = reader.chunk_count();
+  contents.damaged = reader.damaged();
+  contents.ending = reader.ending();
+  return contents;
+}
+
+// All raw topics, each without a gap; from the first publication on, unless the recorder came late.
+void check_unbroken(const Contents& contents, bool from_the_first) {
+  CHECK(contents.damaged == 0);
+  CHECK(contents.count(kGapsTopic) == 0);
+  std::size_t raw = 0;
+  for (const auto& [name, topic] : contents.topics) {
+    if (name.starts_with(kRawTopics)) {
+      INFO(name << ": " << topic.count << " from " << topic.first << " to " << topic.last);
+      CHECK(topic.contiguous);
+      CHECK((!from_the_first || topic.first == 1));
+      ++raw;
+    }
+  }
+  CHECK(raw > 15);
+}
+
+[[nodiscard]] json result_of(const fs::path& run) {
+  return json::parse(std::ifstream{run / "result.json"});
+}
+
+// 50 by hand, as docs/recording.md has it; each takes some two seconds.
+[[nodiscard]] int kills() {
+  const char* told = std::getenv("LODESMAN_KILLS");  // NOLINT(concurrency-mt-unsafe): nobody writes
+  return told == nullptr ? 8 : std::atoi(told);
+}
+
+// A recorder of a boat's segment.
+struct Recorder {
+  Recorder(const Boat& boat, const fs::path& out) : part{DiskFile::part_of(out)}, file{out} {
+    auto arguments = boat.arguments;
+    arguments.insert(arguments.end(), {"--out", out.string()});
+    program.emplace(program_directory() / "lodesman-recorder", arguments);
+  }
+  // Waits until that many chunks are on the disk.
+  [[nodiscard]] bool has_chunks(std::uint64_t count) const {
+    return eventually([&] { return fs::exists(part) && contents_of(part).chunks >= count; });
+  }
+
+  fs::path part;
+  fs::path file;
+  std::optional<Program> program;
+};
+
+constexpr const char* kMakersAreAbsent =
+    "no @mcap/core is installed (tests/system/mcap/install.sh)";
+
+// Whether the makers' own library is installed; with CI=true it has to be.
+[[nodiscard]] bool makers_are_here() {
+  const bool here = fs::exists(fs::path{LODESMAN_MCAP_PACKAGES} / "node_modules" / "@mcap");
+  if (!here && data_is_required()) {
+    FAIL("CI=true, and " << kMakersAreAbsent);
+  }
+  return here;
+}
+
+// What it says of files.
+[[nodiscard]] json read_by_makers(const std::vector<fs::path>& files) {
+  std::string command = "node '" LODESMAN_MCAP_READER "' '" LODESMAN_MCAP_PACKAGES "'";
+  for (const fs::path& file : files) {
+    command += " '" + file.string() + "'";
+  }
+  std::FILE* pipe = popen(command.c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  std::string output;
+  std::array<char, 4096> piece{};
+  for (std::size_t size = 1; size > 0;) {
+    size = std::fread(piece.data(), 1, piece.size(), pipe);
+    output.append(piece.data(), size);
+  }
+  CHECK(pclose(pipe) == 0);
+  return json::parse(output);
+}
+
+}  // namespace
+
+TEST_CASE("recorder: a run in lock-step is recorded whole, and its hash is the same without",
+          "[system]") {
+  const Scratch scratch{"recorder"};
+  const auto scenario = scratch.file("scenario.toml", scenario_text(80.0));
+  const auto sail = [&](const char* name, std::vector<std::string> more) {
+    more.insert(more.end(), {"--lockstep", "--quiet", "--time-limit", "12"});
+    const fs::path out = scratch.file(name);
+    Program run{program("lodesman"), sim(scenario, out, more)};
+    CHECK(run.status() == 1);  // the time limit
+    return out;
+  };
+  const fs::path with = sail("with", {"--record"});
+  const fs::path without = sail("without", {});
+  CHECK(result_of(with)["recording_hash"] == result_of(without)["recording_hash"]);
+  CHECK_FALSE(fs::exists(without / "mission.mcap"));
+  const Contents contents = contents_of(with / "mission.mcap");
+  CHECK(contents.ending == McapEnding::kWhole);
+  check_unbroken(contents, true);
+  CHECK(contents.count("raw/sonar_ping") >= 110);
+  CHECK(contents.count("raw/vehicle_state") >= 240);
+  CHECK(contents.about.at("boat") != "");
+  CHECK(contents.attachments.at("scenario.toml").find("short") != std::string::npos);
+  CHECK(contents.attachments.at("config.toml").find("[recorder]") != std::string::npos);
+  // The shipped layout shows what there is.
+  const json layout = json::parse(std::ifstream{LODESMAN_VIEWER_LAYOUT})["configById"];
+  std::vector<std::string> shown{layout["Image!sonar"]["imageMode"]["imageTopic"],
+                                 layout["RosOut!log"]["topicToRender"]};
+  for (const auto& [topic, how] : layout["3D!scene"]["topics"].items()) {
+    shown.push_back(topic);
+  }
+  CHECK(shown.size() == 4);
+  for (const std::string& topic : shown) {
+    INFO(topic);
+    CHECK(contents.count(topic) > 0);
+  }
+}
+
+TEST_CASE("recorder: a run in real time is recorded to the last publication of each channel",
+          "[system]") {
+  const Scratch scratch{"recorder"};
+  const auto scenario = scratch.file("scenario.toml", scenario_text(80.0));
+  const fs::path out = scratch.file("run");
+  Program run{program("lodesman"),
+              sim(scenario, out, {"--record", "--quiet", "--time-limit", "6"})};
+  const SharedBlackboard board = under_way(run);
+  CHECK(run.status() == 1);  // the time limit
+  const Contents contents = contents_of(out / "mission.mcap");
+  CHECK(contents.ending == McapEnding::kWhole);
+  // A machine that is busy may start the recorder after the boat; from then on nothing is missing.
+  check_unbroken(contents, false);
+  CHECK(contents.topics.at(std::string{kRawTopics} + "world_truth").first == 1);
+  for_each_channel(*board, [&](const ChannelInfo& info, const auto& channel) {
+    INFO(info.name);
+    const auto found = contents.topics.find(std::string{kRawTopics} + info.name);
+    const std::uint64_t last = found == contents.topics.end() ? 0 : found->second.last;
+    CHECK(last == channel.head.newest.load());
+  });
+}
+
+TEST_CASE("recorder: killed at random times every file can be read, and is closed by recover",
+          "[system]") {
+  const Scratch scratch{"recorder"};
+  const Boat boat{scratch, "default", scenario_text(80.0)};
+  std::mt19937_64 random{20260926};
+  std::vector<fs::path> parts;
+  for (int i = 0; i < kills(); ++i) {
+    INFO("kill " << i);
+    const fs::path out = scratch.file("kill-" + std::to_string(i) + ".mcap");
+    Recorder recorder{boat, out};
+    REQUIRE(recorder.has_chunks(1));
+    std::this_thread::sleep_for(milliseconds{random() % 1200});
+    kill(recorder.program->pid(), SIGKILL);
+    CHECK(recorder.program->status() == 128 + SIGKILL);
+    CHECK_FALSE(fs::exists(out));
+    const Contents before = contents_of(recorder.part);
+    CHECK(before.ending == McapEnding::kCutOff);
+    CHECK(before.chunks >= 1);
+    check_unbroken(before, false);
+    Program recover{program("lodesman"), {"recover", recorder.part.string(), "--quiet"}};
+    CHECK(recover.status() == 0);
+    const Contents after = contents_of(out);
+    CHECK(after.ending == McapEnding::kWhole);
+    CHECK(after.count("raw/attitude") == before.count("raw/attitude"));
+    CHECK(after.attachments == before.attachments);
+    parts.push_back(recorder.part);
+  }
+  if (!makers_are_here()) {
+    return;
+  }
+  const json said = read_by_makers(parts);
+  CHECK(said["complaints"] == json::array());
+  for (const fs::path& part : parts) {
+    CHECK(said["files"][part.string()]["topics"]["raw/attitude"] ==
+          contents_of(part).count("raw/attitude"));
+  }
+}
+
+TEST_CASE("recorder: a run on emulated devices is recorded whole", "[system]") {
+  const Scratch scratch{"recorder"};
+  const auto scenario = scratch.file("scenario.toml", scenario_text(80.0));
+  const fs::path out = scratch.file("run");
+  auto arguments = sim(scenario, out, {"--record", "--quiet", "--time-limit", "5"});
+  arguments.front() = "hil";
+  Program run{program("lodesman"), arguments};
+  CHECK(run.status() == 1);  // the time limit
+  const Contents contents = contents_of(out / "mission.mcap");
+  CHECK(contents.ending == McapEnding::kWhole);
+  check_unbroken(contents, false);
+  CHECK(contents.count("raw/attitude") > 0);
+  CHECK(contents.count("raw/sonar_ping") > 0);
+  CHECK(contents.count("raw/thrust_applied") > 0);
+}
+
+TEST_CASE("recorder: what is still being written is not recovered, and a whole file is left alone",
+          "[system]") {
+  const Scratch scratch{"recorder"};
+  const Boat boat{scratch, "default", scenario_text(80.0)};
+  Recorder recorder{boat, scratch.file("live.mcap")};
+  REQUIRE(recorder.has_chunks(1));
+  Program early{program("lodesman"), {"recover", recorder.part.string()}};
+  CHECK(early.status() == 2);
+  kill(recorder.program->pid(), SIGTERM);
+  CHECK(recorder.program->status() == 0);
+  CHECK_FALSE(fs::exists(recorder.part));
+  const Contents contents = contents_of(recorder.file);
+  CHECK(contents.ending == McapEnding::kWhole);
+  check_unbroken(contents, false);
+  Program late{program("lodesman"), {"recover", recorder.file.string(), "--quiet"}};
+  CHECK(late.status() == 0);
+  CHECK_FALSE(fs::exists(scratch.file("live-recovered.mcap")));
+}
+
+TEST_CASE("recorder: when the low level is started anew the recording goes on", "[system]") {
+  const Scratch scratch{"recorder"};
+  Boat boat{scratch, "default", scenario_text(80.0)};
+  Recorder recorder{boat, scratch.file("boat.mcap")};
+  REQUIRE(recorder.has_chunks(1));
+  boat.low.reset();  // ends, and with it its segment
+  boat.start_low();
+  const fs::path second = scratch.file("boat-2.mcap");
+  REQUIRE(eventually([&] {
+    return fs::exists(DiskFile::part_of(second)) &&
+           contents_of(DiskFile::part_of(second)).count("raw/attitude") > 50;
+  }));
+  kill(recorder.program->pid(), SIGTERM);
+  CHECK(recorder.program->status() == 0);
+  CHECK(contents_of(recorder.file).ending == McapEnding::kWhole);
+  const Contents after = contents_of(second);
+  CHECK(after.ending == McapEnding::kWhole);
+  CHECK(after.topics.at("raw/attitude").first == 1);
+  check_unbroken(after, false);
+}
+
+// A limit of the file's size fails as a full disk does, and needs no disk of the test's own.
+TEST_CASE("recorder: a disk that is full costs what did not fit, which the next file tells",
+          "[system]") {
+  constexpr rlim_t kDisk_bytes = 200'000;
+  const Scratch scratch{"recorder"};
+  const Boat boat{scratch, "default", scenario_text(80.0)};
+  auto arguments = boat.arguments;
+  const fs::path out = scratch.file("full.mcap");
+  arguments.insert(arguments.end(), {"--out", out.string()});
+  Program recorder{program_directory() / "lodesman-recorder", arguments, [] {
+                     const rlimit limit{kDisk_bytes, kDisk_bytes};
+                     setrlimit(RLIMIT_FSIZE, &limit);
+                   }};
+  // Some seconds after the error another file is tried.
+  const fs::path second = scratch.file("full-2.mcap");
+  REQUIRE(eventually([&] {
+    const fs::path part = DiskFile::part_of(second);
+    return fs::exists(part) && contents_of(part).chunks > 0;
+  }));
+  kill(recorder.pid(), SIGTERM);
+  CHECK(recorder.status() == 4);
+  const auto left_of = [](const fs::path& file) {
+    return fs::exists(file) ? file : DiskFile::part_of(file);
+  };
+  CHECK(fs::file_size(left_of(out)) <= kDisk_bytes);
+  const Contents before = contents_of(left_of(out));
+  CHECK(before.chunks > 0);
+  check_unbroken(before, false);
+  const Contents after = contents_of(left_of(second));
+  const Topic& was = before.topics.at("raw/attitude");
+  const Topic& is = after.topics.at("raw/attitude");
+  const auto gap = std::find_if(after.gaps.begin(), after.gaps.end(),
+                                [](const json& g) { return g["channel"] == "attitude"; });
+  REQUIRE(gap != after.gaps.end());
+  CHECK((*gap)["first"] == was.last + 1);
+  CHECK((*gap)["last"] == is.first - 1);
+}
+
+TEST_CASE("recorder: without a boat it ends with not yet, and without a place to write refuses",
+          "[system]") {
+  const Scratch scratch{"recorder"};
+  Program lonely{program_directory() / "lodesman-recorder",
+                 {"--segment", "lodesman-test-nobody", "--out", scratch.file("x.mcap").string()}};
+  CHECK(lonely.status() == 75);
+  CHECK_FALSE(fs::exists(scratch.file("x.mcap.part")));
+}
+
+TEST_CASE("recorder: the makers' own reader reads all of it with every CRC, cut off or whole",
+          "[system]") {
+  if (!makers_are_here()) {
+    std::cout << "skipped: " << kMakersAreAbsent << "\n";
+    return;
+  }
+  const Scratch scratch{"recorder"};
+  const auto scenario = scratch.file("scenario.toml", scenario_text(80.0));
+  const fs::path out = scratch.file("run");
+  Program run{program("lodesman"),
+              sim(scenario, out, {"--record", "--lockstep", "--quiet", "--time-limit", "12"})};
+  CHECK(run.status() == 1);
+  const fs::path whole = out / "mission.mcap";
+  const auto size = fs::file_size(whole);
+  std::vector<fs::path> files{whole};
+  for (const double share : {0.3, 0.7, 0.95}) {
+    files.push_back(scratch.file("cut-" + std::to_string(files.size()) + ".mcap"));
+    fs::copy_file(whole, files.back());
+    fs::resize_file(files.back(), static_cast<std::uintmax_t>(share * static_cast<double>(size)));
+  }
+  const json said = read_by_makers(files);
+  CHECK(said["complaints"] == json::array());
+  for (const fs::path& file : files) {
+    const json& seen = said["files"][file.string()];
+    const Contents contents = contents_of(file);
+    INFO(file.string());
+    CHECK(seen["done"] == (file == whole));
+    std::uint64_t messages = 0;
+    for (const auto& [name, topic] : contents.topics) {
+      CHECK(seen["topics"][name] == topic.count);
+      messages += topic.count;
+    }
+    if (file == whole) {
+      CHECK(seen["indexed"]["messages"] == messages);
+      CHECK(seen["indexed"]["statistics"] == messages);
+      CHECK(seen["indexed"]["metadata"]["lodesman"]["version"] != nullptr);
+      CHECK(seen["indexed"]["attachments"]["config.toml"] ==
+            contents.attachments.at("config.toml").size());
+    }
+  }
+}
