@@ -138,4 +138,8 @@ BoatConfig load_configuration(const std::string& profile, const CommonOptions& o
   return read(put_together(profile, options));
 }
 
+BoatConfig configuration_of(const std::string& text, const std::string& name) {
+  return read(TomlDocument::from_text(text, name));
+}
+
 }  // namespace lodesman

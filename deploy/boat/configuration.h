@@ -83,4 +83,7 @@ struct BoatConfig {
 [[nodiscard]] BoatConfig load_configuration(const std::string& profile,
                                             const CommonOptions& options);
 
+// As to_text() wrote it, with every key; `name` stands in the place of a file's in refusals.
+[[nodiscard]] BoatConfig configuration_of(const std::string& text, const std::string& name);
+
 }  // namespace lodesman

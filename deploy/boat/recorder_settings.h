@@ -27,7 +27,7 @@ struct RecorderSettings {
           mebibytes("rotate_mib", 0, 1 << 20),
           table.duration("rotate_after_s", Range::between(0.0, 1e6)),
           mebibytes("free_floor_mib", 0, 1 << 30),
-          mebibytes("queue_mib", 4, 1 << 12),
+          mebibytes("queue_mib", 4, 256),
           table.duration("chunk_s", Range::between(0.05, 1.0))};
 }
 

@@ -188,6 +188,10 @@ OrderAnswer Mission::obey(const GivenOrder& given, const WorldPoint& position, T
   if (given.given < now - kOrderPatience) {
     return OrderAnswer::kTooOld;
   }
+  // What disarmed the boat came after it.
+  if (status_.cause == MissionCause::kDisarmed && given.given <= status_.ended) {
+    return OrderAnswer::kAborted;
+  }
   const bool starts = command.order == OperatorOrder::kStart;
   const bool known =
       at_hand_.goal_count > 0 && (command.mission == 0 || command.mission == at_hand_.id);

@@ -88,7 +88,7 @@ void FileSeries::open(Time now) {
 void FileSeries::begin_with_what_is_known(Time now) {
   for (const auto& said : said_) {
     if (said) {
-      recording_->add(said->publication, said->raw);
+      recording_->add_again(said->publication, said->raw);
     }
   }
   for (auto& gap : missing_) {
@@ -149,9 +149,13 @@ void FileSeries::remember(const Publication& publication, std::span<const std::b
   }
 }
 
+void FileSeries::fail(const std::string& what) {
+  news_.push_back(what);
+  failure_ = failure_.empty() ? what : failure_;
+}
+
 void FileSeries::stop(const std::string& why, Duration pause, Time now) {
-  failed_ = true;
-  news_.push_back("recording stops: " + why);
+  fail("recording stops: " + why);
   close();
   state_ = SeriesState::kNoRoom;
   try_again_ = now + pause;
@@ -161,6 +165,11 @@ void FileSeries::look_for_faults(Time now) {
   if (state_ != SeriesState::kRecording || recording_->fault() == 0) {
     return;
   }
+  stop(name_.string() + ": " + std::generic_category().message(recording_->fault()), kErrorPause,
+       now);
+}
+
+void FileSeries::miss_what_was_lost() {
   for (const Gap& gap : recording_->lost()) {
     miss(gap);
     recorded_ -= std::min(recorded_, gap.last - gap.first + 1);
@@ -169,8 +178,6 @@ void FileSeries::look_for_faults(Time now) {
     lost_ -= gap.last - gap.first + 1;  // they are counted already
     miss(gap);
   }
-  stop(name_.string() + ": " + std::generic_category().message(recording_->fault()), kErrorPause,
-       now);
 }
 
 void FileSeries::close() {
@@ -178,13 +185,20 @@ void FileSeries::close() {
     return;
   }
   state_ = SeriesState::kWaiting;
-  if (const int failed = recording_->finish(); failed == 0) {
+  const bool was_told = recording_->fault() != 0;
+  const int failed = recording_->finish();
+  const int fault = recording_->fault();
+  if (fault != 0) {
+    miss_what_was_lost();
+  }
+  if (failed != 0) {
+    fail(name_.string() + " could not be closed: " + std::generic_category().message(failed));
+  } else {
+    if (fault != 0 && !was_told) {
+      fail(name_.string() + " lacks its end: " + std::generic_category().message(fault));
+    }
     closed_.push_back(name_);
     news_.push_back("closed " + name_.string());
-  } else {
-    failed_ = true;
-    news_.push_back(name_.string() +
-                    " could not be closed: " + std::generic_category().message(failed));
   }
   recording_.reset();
 }
@@ -192,6 +206,14 @@ void FileSeries::close() {
 void FileSeries::begin_anew() {
   close();
   said_.assign(said_.size(), std::nullopt);
+  std::uint64_t untold = 0;
+  for (auto& gap : missing_) {
+    untold += gap ? gap->last - gap->first + 1 : 0;
+    gap.reset();
+  }
+  if (untold > 0) {
+    fail(std::to_string(untold) + " publications of the blackboard before are told in no file");
+  }
 }
 
 void FileSeries::tick(Time now) {

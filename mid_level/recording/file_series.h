@@ -52,7 +52,8 @@ class FileSeries {
   void tick(Time now);
   // Ends the file, if there is one; the next publication begins another.
   void close();
-  // The same, for what another blackboard publishes: of this one nothing is said again.
+  // The same, for what another blackboard publishes: of this one nothing is said again, and gaps
+  // that no file could take are counted in news().
   void begin_anew();
 
   [[nodiscard]] SeriesState state() const noexcept { return state_; }
@@ -63,7 +64,9 @@ class FileSeries {
   [[nodiscard]] std::uint64_t recorded() const noexcept { return recorded_; }
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
   // Whether something could not be written, or a file not closed.
-  [[nodiscard]] bool has_failed() const noexcept { return failed_; }
+  [[nodiscard]] bool has_failed() const noexcept { return !failure_.empty(); }
+  // What was the first of it, for people; empty where nothing was.
+  [[nodiscard]] const std::string& failure() const noexcept { return failure_; }
   // What has happened since the last call, a line each, for people.
   [[nodiscard]] std::vector<std::string> news();
 
@@ -78,7 +81,9 @@ class FileSeries {
   void stop(const std::string& why, Duration pause, Time now);
   void look_for_faults(Time now);
   void tend(Time now);
+  void fail(const std::string& what);
   void miss(const Gap& gap);
+  void miss_what_was_lost();
   void remember(const Publication& publication, std::span<const std::byte> raw);
   void begin_with_what_is_known(Time now);
   [[nodiscard]] std::filesystem::path next_name();
@@ -101,7 +106,7 @@ class FileSeries {
   std::vector<std::optional<Said>> said_;    // by channel, those of said_again
   std::uint64_t recorded_ = 0;
   std::uint64_t lost_ = 0;
-  bool failed_ = false;
+  std::string failure_;
   std::vector<std::string> news_;
 };
 

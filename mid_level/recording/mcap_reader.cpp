@@ -18,6 +18,8 @@
 namespace lodesman {
 namespace {
 
+constexpr std::uint64_t kZstdBlockHead_bytes = 3;
+
 // Schemas or channels of one file; their ids have 16 bits.
 constexpr std::size_t kMaxKnown = 65535;
 
@@ -240,8 +242,12 @@ bool McapReader::unpack(const std::string& compression, std::span<const std::byt
     chunk_.assign(packed.begin(), packed.end());
     return true;
   }
-  // What the frame itself says of its size is asked before room is made for it.
-  if (compression != "zstd" || ZSTD_getFrameContentSize(packed.data(), packed.size()) != size) {
+  // What the frame itself says of its size is asked before room is made for it. One that was
+  // compressed as a stream may say nothing; then the chunk's word has to do, as far as that many
+  // bytes can hold that much (RFC 8878, 3.1.1.2: a block has a head, and gives 128 KiB at most).
+  const auto told = ZSTD_getFrameContentSize(packed.data(), packed.size());
+  const bool can_hold = size / ZSTD_BLOCKSIZE_MAX * kZstdBlockHead_bytes <= packed.size();
+  if (compression != "zstd" || (told != size && (told != ZSTD_CONTENTSIZE_UNKNOWN || !can_hold))) {
     return false;
   }
   chunk_.resize(static_cast<std::size_t>(size));

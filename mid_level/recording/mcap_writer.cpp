@@ -206,6 +206,7 @@ void McapWriter::close_chunk() {
 void McapWriter::sync() {
   if (fault_ == 0) {
     fault_ = file_.sync();
+    sync_failed_ = sync_failed_ || fault_ != 0;
   }
 }
 

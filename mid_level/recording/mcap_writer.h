@@ -41,6 +41,8 @@ class McapWriter {
   // 0, or the number (errno) of the first error: since then no message is taken, and those that
   // waited for their chunk are not in the file.
   [[nodiscard]] int fault() const noexcept { return fault_; }
+  // Whether what was written may be missing too: a later sync does not tell it again (fsync(2)).
+  [[nodiscard]] bool has_sync_failed() const noexcept { return sync_failed_; }
   [[nodiscard]] bool is_finished() const noexcept { return finished_; }
   [[nodiscard]] std::uint64_t size_bytes() const noexcept { return size_; }
   [[nodiscard]] std::uint64_t message_count() const noexcept { return message_count_; }
@@ -81,6 +83,7 @@ class McapWriter {
   RecordFile& file_;
   std::unique_ptr<Compressor> compressor_;
   int fault_ = 0;
+  bool sync_failed_ = false;
   bool finished_ = false;
   std::uint64_t size_ = 0;
   std::uint32_t data_crc_ = 0;  // of all that is in the file

@@ -54,18 +54,33 @@ void Recording::add_channels() {
   gaps_id_ = writer_.add(McapChannel{0, schema, kGapsTopic, "json", {}});
   viewers_ = std::make_unique<ViewerChannels>(writer_);
   waiting_.resize(names_.size());
+  unsynced_.resize(names_.size());
+}
+
+void Recording::Span::take_in(const Span& later) noexcept {
+  if (later.first != 0) {
+    first = first == 0 ? later.first : first;
+    last = later.last;
+  }
 }
 
 void Recording::add(const Publication& publication, std::span<const std::byte> raw) {
   LODESMAN_CHECK(publication.channel < raw_ids_.size());
-  Waiting& waiting = waiting_[publication.channel];
-  waiting.first = waiting.first == 0 ? publication.sequence : waiting.first;
-  waiting.last = publication.sequence;
+  waiting_[publication.channel].take_in({publication.sequence, publication.sequence});
+  write(publication, raw);
+}
+
+void Recording::add_again(const Publication& publication, std::span<const std::byte> raw) {
+  LODESMAN_CHECK(publication.channel < raw_ids_.size());
+  write(publication, raw);
+}
+
+void Recording::write(const Publication& publication, std::span<const std::byte> raw) {
   const std::uint64_t stamp = nanoseconds(publication.stamp);
   writer_.add(McapMessage{raw_ids_[publication.channel],
                           static_cast<std::uint32_t>(publication.sequence), stamp, stamp, raw});
   viewers_->take(publication, raw);
-  forget_what_is_written();
+  see_what_is_written();
 }
 
 void Recording::add(const Gap& gap, Time at) {
@@ -79,37 +94,61 @@ void Recording::add(const Gap& gap, Time at) {
   writer_.add(
       McapMessage{gaps_id_, ++gap_count_, nanoseconds(at), nanoseconds(at), bytes_of(text)});
   waiting_gaps_.push_back(gap);
-  forget_what_is_written();
+  see_what_is_written();
 }
 
 void Recording::close_chunk() {
   writer_.close_chunk();
-  forget_what_is_written();
+  see_what_is_written();
 }
 
-void Recording::forget_what_is_written() {
+void Recording::sync() {
+  writer_.sync();
+  forget_what_is_synced();
+}
+
+void Recording::see_what_is_written() {
   if (writer_.chunk_count() == chunks_seen_) {
     return;
   }
   chunks_seen_ = writer_.chunk_count();
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    unsynced_[i].take_in(waiting_[i]);
+  }
   waiting_.assign(waiting_.size(), {});
+  unsynced_gaps_.insert(unsynced_gaps_.end(), waiting_gaps_.begin(), waiting_gaps_.end());
   waiting_gaps_.clear();
+}
+
+void Recording::forget_what_is_synced() {
+  if (writer_.fault() == 0) {
+    unsynced_.assign(unsynced_.size(), {});
+    unsynced_gaps_.clear();
+  }
 }
 
 std::vector<Gap> Recording::lost() const {
   std::vector<Gap> gaps;
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
-    if (waiting_[i].first != 0) {
-      gaps.push_back({static_cast<std::uint32_t>(i), GapCause::kNotWritten, waiting_[i].first,
-                      waiting_[i].last});
+    Span lost = writer_.has_sync_failed() ? unsynced_[i] : Span{};
+    lost.take_in(waiting_[i]);
+    if (lost.first != 0) {
+      gaps.push_back({static_cast<std::uint32_t>(i), GapCause::kNotWritten, lost.first, lost.last});
     }
   }
+  return gaps;
+}
+
+std::vector<Gap> Recording::untold_gaps() const {
+  std::vector<Gap> gaps = writer_.has_sync_failed() ? unsynced_gaps_ : std::vector<Gap>{};
+  gaps.insert(gaps.end(), waiting_gaps_.begin(), waiting_gaps_.end());
   return gaps;
 }
 
 int Recording::finish() {
   close_chunk();
   writer_.finish();
+  forget_what_is_synced();
   // After an error the file may have been closed all the same; then it is as whole as any.
   return writer_.is_finished() ? file_->keep() : writer_.fault();
 }

@@ -36,32 +36,39 @@ class Recording {
   ~Recording();
 
   void add(const Publication& publication, std::span<const std::byte> raw);
+  // What stands in a file before this one too: it is not lost with this one.
+  void add_again(const Publication& publication, std::span<const std::byte> raw);
   void add(const Gap& gap, Time at);
   // Until then what was added may be lost with this program.
   void close_chunk();
   // And until then with the machine's power.
-  void sync() { writer_.sync(); }
+  void sync();
   // Closes the file and gives it its name. 0, or the number of the error that kept it from that.
   [[nodiscard]] int finish();
 
   // 0, or the number of the first error; from then on it takes nothing.
   [[nodiscard]] int fault() const noexcept { return writer_.fault(); }
-  // After a fault: what was added since the last chunk that was written, and gaps told since then.
+  // After a fault, and finish(): what was added since the last chunk that was written, or where a
+  // sync has failed since the last one that did not; and gaps told since then.
   [[nodiscard]] std::vector<Gap> lost() const;
-  [[nodiscard]] const std::vector<Gap>& untold_gaps() const noexcept { return waiting_gaps_; }
+  [[nodiscard]] std::vector<Gap> untold_gaps() const;
   [[nodiscard]] std::uint64_t size_bytes() const noexcept {
     return writer_.size_bytes() + writer_.waiting_bytes();
   }
 
  private:
-  struct Waiting {
+  // Of one channel's numbers.
+  struct Span {
     std::uint64_t first = 0;  // 0: nothing
     std::uint64_t last = 0;
+    void take_in(const Span& later) noexcept;
   };
 
   void add_channels();
   void add_attachments(const RecordingNotes& notes, Time now);
-  void forget_what_is_written();
+  void write(const Publication& publication, std::span<const std::byte> raw);
+  void see_what_is_written();
+  void forget_what_is_synced();
 
   std::unique_ptr<RecordFile> file_;
   McapWriter writer_;
@@ -70,8 +77,10 @@ class Recording {
   std::vector<std::uint16_t> raw_ids_;
   std::uint16_t gaps_id_ = 0;
   std::uint32_t gap_count_ = 0;
-  std::vector<Waiting> waiting_;  // by channel
+  std::vector<Span> waiting_;   // by channel: for their chunk to be written
+  std::vector<Span> unsynced_;  // by channel: written
   std::vector<Gap> waiting_gaps_;
+  std::vector<Gap> unsynced_gaps_;
   std::size_t chunks_seen_ = 0;
 };
 

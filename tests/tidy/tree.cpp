@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <fstream>
 
 #include "tests/support/catch.h"
@@ -32,7 +33,11 @@ TEST_CASE("tidy: every test that a document cites exists", "[tidy]") {
 }
 
 TEST_CASE("tidy: every threat has its test", "[tidy]") {
-  for (const std::string& finding : threats_without_tests(read_tree(LODESMAN_SOURCE_DIR))) {
+  const std::vector<SourceFile> tree = read_tree(LODESMAN_SOURCE_DIR);
+  CHECK(std::any_of(tree.begin(), tree.end(), [](const SourceFile& file) {
+    return file.path == "docs/security.md" && file.text.find("| test |\n") != std::string::npos;
+  }));
+  for (const std::string& finding : threats_without_tests(tree)) {
     FAIL_CHECK(finding);
   }
 }

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "deploy/boat/exit_status.h"
+#include "deploy/operator/cli/plot_command.h"
 #include "deploy/operator/cli/segment_command.h"
 #include "deploy/operator/cli/sim_command.h"
 
@@ -24,7 +25,7 @@ struct Word {
 };
 
 constexpr std::array kWords{Word{"sim", kSimDescription}, Word{"hil", kHilDescription},
-                            Word{"segment", kSegmentDescription}};
+                            Word{"segment", kSegmentDescription}, Word{"plot", kPlotDescription}};
 
 }  // namespace
 

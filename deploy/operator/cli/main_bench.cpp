@@ -5,6 +5,7 @@
 
 #include "deploy/boat/process_main.h"
 #include "deploy/boat/version.h"
+#include "deploy/operator/cli/plot_command.h"
 #include "deploy/operator/cli/segment_command.h"
 #include "deploy/operator/cli/sim_command.h"
 
@@ -19,5 +20,6 @@ int main(int argc, char** argv) {
   cli::add_sim_command(app, exit_status);
   cli::add_hil_command(app, exit_status);
   cli::add_segment_command(app, exit_status);
+  cli::add_plot_command(app, exit_status);
   return lodesman::process_main(app, argc, argv, [&] { return exit_status; });
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/operator/cli/recover_command.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -33,6 +36,44 @@ struct RecoverOptions {
   return file.parent_path() / (file.stem().string() + "-recovered" + file.extension().string());
 }
 
+// Gives a file its own name: 0, or the error's number. Never over one that came meanwhile.
+[[nodiscard]] int rename_new(const fs::path& from, const fs::path& to) {
+  if (link(from.c_str(), to.c_str()) == 0) {
+    unlink(from.c_str());
+    return 0;
+  }
+  if (errno == EEXIST) {
+    return EEXIST;
+  }
+  // Where there are no links (FAT), and where there is not that either, a look and a rename.
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) {
+    return 0;
+  }
+  if (errno != EINVAL && errno != ENOSYS) {
+    return errno;
+  }
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(to, error))) {
+    return EEXIST;
+  }
+  return rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
+// Of a recovery that was killed; throws StartupError where one is still at it.
+void remove_left_over(const fs::path& part) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(part, error))) {
+    return;
+  }
+  if (!fs::is_regular_file(fs::symlink_status(part, error))) {
+    throw StartupError(part.string() + ": is in the way");
+  }
+  if (McapFileSource{part.string()}.is_being_written()) {
+    throw StartupError(part.string() + ": another recovery writes it");
+  }
+  fs::remove(part, error);
+}
+
 // A finished file beside the old one. Throws StartupError where it cannot be written.
 [[nodiscard]] McapRecovery write_to(const fs::path& out, McapSource& source) {
   // Not the name of the old one with `.part` behind it, which may be the old one itself.
@@ -47,6 +88,8 @@ struct RecoverOptions {
   if (fs::exists(fs::symlink_status(out, error))) {
     throw StartupError(out.string() + ": is there already; --out names another");
   }
+  remove_left_over(DiskFile::part_of(beside));
+  remove_left_over(beside);
   DiskFile file{beside};
   McapWriter writer{file, std::string{"lodesman recover "} + kVersion};
   const McapRecovery recovery = recover(source, writer);
@@ -54,21 +97,20 @@ struct RecoverOptions {
   if (failed != 0) {
     refuse(failed);
   }
-  // link() never writes over a file that came meanwhile.
-  fs::create_hard_link(beside, out, error);
-  if (error) {
-    refuse(error.value());
+  if (const int kept = rename_new(beside, out); kept != 0) {
+    refuse(kept);
   }
-  fs::remove(beside, error);
   return recovery;
 }
 
 void print(const RecoverOptions& options, const McapRecovery& recovery, const fs::path& out) {
-  const bool is_whole = recovery.ending == McapEnding::kWhole;
+  const bool is_whole = recovery.ending == McapEnding::kWhole && recovery.damaged == 0;
+  const std::string reason =
+      recovery.ending == McapEnding::kWhole ? "is closed, but damaged in between" : recovery.reason;
   if (options.common.json) {
     nlohmann::ordered_json json{{"file", options.file}, {"whole", is_whole}};
     json["out"] = is_whole ? nlohmann::ordered_json{} : nlohmann::ordered_json{out.string()};
-    json["reason"] = is_whole ? nlohmann::ordered_json{} : nlohmann::ordered_json{recovery.reason};
+    json["reason"] = is_whole ? nlohmann::ordered_json{} : nlohmann::ordered_json{reason};
     json["messages"] = recovery.messages;
     json["chunks"] = recovery.chunks;
     json["damaged"] = recovery.damaged;
@@ -84,7 +126,7 @@ void print(const RecoverOptions& options, const McapRecovery& recovery, const fs
     return;
   }
   fmt::print("{}: {}\n{}: {} messages from {} chunks; {} bytes at the end could not be used\n",
-             options.file, recovery.reason, out.string(), recovery.messages, recovery.chunks,
+             options.file, reason, out.string(), recovery.messages, recovery.chunks,
              recovery.lost_bytes);
   if (recovery.damaged > 0) {
     fmt::print("{} records or chunks failed their checks and are left out\n", recovery.damaged);

@@ -19,14 +19,11 @@
 #include "deploy/operator/cli/bench_options.h"
 #include "deploy/operator/cli/common_options.h"
 #include "deploy/operator/cli/number_options.h"
-#include "deploy/operator/cli/view_saver.h"
+#include "deploy/operator/cli/run_output.h"
 #include "deploy/operator/recorder/series_of_boat.h"
 #include "deploy/operator/report/output_file.h"
-#include "deploy/operator/report/plan_story.h"
-#include "deploy/operator/report/plots.h"
 #include "deploy/operator/report/run_files.h"
 #include "deploy/operator/run/lockstep_run.h"
-#include "deploy/operator/run/progress.h"
 #include "deploy/operator/run/realtime_run.h"
 #include "deploy/operator/run/run_directory.h"
 #include "deploy/operator/watch/find_segment.h"
@@ -75,110 +72,6 @@ struct SimOptions {
   return result.reached ? kExitDone : kExitNoGoal;
 }
 
-[[nodiscard]] std::string metres_or_none(const std::optional<double>& value) {
-  return value ? fmt::format("{:.2f} m", *value) : "none";
-}
-
-void print_summary(const RunRecord& record, const fs::path& directory, bool images) {
-  const RunResult& r = record.result;
-  if (!r.fault.empty()) {
-    fmt::print(stderr, "fault: {}\n", r.fault);
-  }
-  fmt::print("{} ({}, {}): {} after {:.1f} s, {:.2f} m from the goal\n", r.scenario, r.profile,
-             r.mode, r.outcome, r.time_s, r.goal_error_m);
-  fmt::print("smallest inoffensive distance {}, hull clearance {}\n",
-             metres_or_none(r.min_inoffensive_distance_m), metres_or_none(r.min_hull_clearance_m));
-  std::string reasons;
-  for (const auto& [reason, count] : r.plan_reasons) {
-    reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
-  }
-  fmt::print("{} plans ({})", r.plans, reasons);
-  fmt::print("; side changed {} times", r.side_flips);
-  if (r.first_side_flip_s) {
-    fmt::print(", first at {:.1f} s", *r.first_side_flip_s);
-  }
-  if (r.truths_missed > 0 || r.plans_missed > 0) {
-    fmt::print("\nheld up: {} states of the world and {} plans are not in the files",
-               r.truths_missed, r.plans_missed);
-  }
-  fmt::print("\nrun directory: {}\n", directory.string());
-  if (images) {
-    for (const char* picture : {"world", "inoffensive_distance", "heading", "thrust"}) {
-      if (const fs::path png = directory / (std::string{picture} + ".png"); fs::exists(png)) {
-        fmt::print("  {}\n", png.string());
-      }
-    }
-    fmt::print("  {}\n", (directory / "sonar").string());
-  }
-}
-
-// What a run writes while it goes on. What cannot be written is said once, and the run goes on.
-class RunOutput {
- public:
-  RunOutput(const SimOptions& options, const BoatConfig& configuration, const Scenario& scenario,
-            const fs::path& directory)
-      : files_{directory}, line_{scenario, options.common.quiet} {
-    if (!options.no_images) {
-      views_.emplace(directory, configuration.simulation.sonar_view_period, scenario.sonar.range_m);
-    }
-  }
-
-  void say(const std::string& news) { line_.say(news); }
-  void show(const RunProgress& progress) {
-    if (progress.notice && progress.notice->t_s > noticed_s_) {
-      noticed_s_ = progress.notice->t_s;
-      line_.say(fmt::format("{:.1f} s: {}", noticed_s_, progress.notice->text));
-    }
-    line_.show(progress);
-  }
-  void add(const TrajectoryRow& row) {
-    files_.add(row);
-    note(files_.fault());
-  }
-  void add(const Blackboard& board, const Plan& plan, const SonarPath* path,
-           const PlanRecord& record) {
-    files_.add(record);
-    note(files_.fault());
-    if (views_) {
-      views_->save(board, plan, path, record);
-      note(views_->fault());
-    }
-    if (const std::string news = story_.news(record); !news.empty()) {
-      line_.say(news);
-    }
-  }
-  // result.json, then the pictures.
-  void finish(const fs::path& directory, const RunRecord& record) {
-    files_.finish(record.result);
-    note(files_.fault());
-    if (!views_) {
-      return;
-    }
-    try {
-      draw_pictures(directory, record, share_directory() / "deploy" / "pictures");
-    } catch (const StartupError& error) {
-      note(error.what());
-    }
-  }
-  // Of what others write: one line; empty where nothing is wrong.
-  void note(const std::string& fault) {
-    if (!fault.empty() && !lost_) {
-      lost_ = true;
-      line_.warn(fault);
-    }
-  }
-  // Whether all of it could be written, what was said included.
-  [[nodiscard]] bool is_whole() const noexcept { return !lost_ && !line_.failed(); }
-
- private:
-  RunFiles files_;
-  ProgressLine line_;
-  PlanStory story_;
-  double noticed_s_ = 0.0;
-  std::optional<ViewSaver> views_;
-  bool lost_ = false;
-};
-
 constexpr const char* kRecording = "mission.mcap";
 
 // Of a run in lock-step; the other ways of running have lodesman-recorder.
@@ -188,17 +81,17 @@ constexpr const char* kRecording = "mission.mcap";
   if (!options.record) {
     return nullptr;
   }
-  return series_of_run(
-      configuration, directory / kRecording,
-      recording_notes(configuration, "lodesman sim", read_text(directory / "scenario.toml")),
-      Pace::kLockstep);
+  RecordingNotes notes =
+      recording_notes(configuration, "lodesman sim", read_text(directory / "scenario.toml"));
+  notes.about["profile"] = options.profile;
+  notes.about["mode"] = "lockstep";
+  return series_of_run(configuration, directory / kRecording, std::move(notes), Pace::kLockstep);
 }
 
 // Closes it. Empty where all is in the file.
 [[nodiscard]] std::string fault_of(FileSeries& recording) {
   recording.close();
-  const auto news = recording.news();
-  return recording.has_failed() ? news.back() : "";
+  return recording.failure();
 }
 
 [[nodiscard]] RunRecord run(const SimOptions& options, const BoatConfig& configuration,
@@ -266,7 +159,10 @@ constexpr const char* kRecording = "mission.mcap";
 
   catch_stop_signals();
   remove_dead_runs();
-  RunOutput output{options, configuration, scenario, directory};
+  RunOutput output{
+      scenario,
+      directory,
+      {options.common.quiet, !options.no_images, configuration.simulation.sonar_view_period}};
   if (!options.wait_start) {
     output.say(bench ? "the thrusters are emulated: armed by the launcher"
                      : "the thrusters are simulated: armed by the launcher");

@@ -20,6 +20,7 @@
 
 namespace lodesman::cli {
 namespace {
+namespace fs = std::filesystem;
 
 // As long as lodesman-high waits for its first segment.
 constexpr Duration kFirstPatience = std::chrono::seconds{5};
@@ -160,9 +161,24 @@ void record(const SharedBlackboard& board, bool first, FileSeries& series,
   return text.str();
 }
 
+// Later there is nobody to tell it to; what comes and goes, as a disk's room, is no reason.
+void refuse_no_place(const std::string& out) {
+  const fs::path directory = fs::path{out}.parent_path();
+  std::error_code error;
+  if (!directory.empty() && !fs::is_directory(directory, error)) {
+    throw StartupError("--out " + out + ": " + directory.string() + " is no directory");
+  }
+  if (fs::is_directory(out, error)) {
+    throw StartupError("--out " + out + ": is a directory");
+  }
+}
+
 int run(const RecorderOptions& options) {
   const BoatConfig config = load_configuration(options.profile, options.common);
   const RecorderSettings settings = recorder_settings(config);
+  if (!options.out.empty()) {
+    refuse_no_place(options.out);
+  }
   const RecordingNotes notes = recording_notes(config, "lodesman-recorder", scenario_text(config));
   const auto series = options.out.empty()
                           ? series_of_boat(config, recording_name(config), notes)
@@ -190,7 +206,8 @@ int main(int argc, char** argv) {
                "lodesman-recorder"};
   lodesman::cli::RecorderOptions options;
   lodesman::add_process_options(app, options);
-  app.add_option("--out", options.out, "One file for all of it, instead of [recorder] directory")
+  app.add_option("--out", options.out,
+                 "Instead of [recorder] directory; ends neither by size nor by age")
       ->type_name("FILE");
   app.footer("Example: lodesman-recorder --config boat.toml");
   return lodesman::process_main(app, argc, argv, [&] { return lodesman::cli::run(options); });

@@ -21,6 +21,9 @@ RecorderLoop::~RecorderLoop() {
   polling_.join();
   writing_.request_stop();
   writing_.join();
+  // What found no room for its gap has it now, as the queue is empty; both threads have ended.
+  queue_.tell_gaps();
+  write_what_came();
 }
 
 void RecorderLoop::poll(const std::stop_token& stop) noexcept {

@@ -160,6 +160,7 @@ std::string result_json(const RunResult& result) {
   json["origin_deg"] =
       result.origin_deg ? point(*result.origin_deg, kDegreeDecimals) : Json(nullptr);
   json["version"] = result.version;
+  json["counted_from"] = to_string(result.counted_from);
   if (result.outcome == "fault") {
     json["fault"] = result.fault;
   }

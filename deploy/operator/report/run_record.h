@@ -82,6 +82,15 @@ struct Percentiles {
   double max = 0.0;
 };
 
+// Whose word a run's track and distances are.
+enum class CountedFrom : std::uint8_t {
+  kTruth,     // the simulated world's
+  kEstimate,  // the boat's own, of itself and of what it tracks: it collides with nothing
+};
+[[nodiscard]] constexpr auto enumerators(CountedFrom) noexcept {
+  return enumerators_to<CountedFrom::kEstimate>("truth", "estimate");
+}
+
 // result.json, in the order of the contract. An optional that is empty is written as null.
 struct RunResult {
   std::string scenario;
@@ -118,6 +127,7 @@ struct RunResult {
   std::optional<std::string> recording_hash;        // lock-step only
   std::optional<std::array<double, 2>> origin_deg;  // [deg] latitude, longitude of the world's
   std::string version;
+  CountedFrom counted_from = CountedFrom::kTruth;
   // Published and overwritten while nobody looked: lengths and counts above lack them. Not written.
   std::uint64_t truths_missed = 0;
   std::uint64_t plans_missed = 0;

@@ -16,8 +16,11 @@ std::string outcome_words(const RunResult& result) {
 }
 
 std::string picture_title(const RunResult& result) {
-  return result.scenario + ", profile " + result.profile + ": " + outcome_words(result) + ", " +
-         fixed(result.time_s, 1) + " s";
+  const std::string profile = result.profile.empty() ? "" : ", profile " + result.profile;
+  const char* estimated =
+      result.counted_from == CountedFrom::kEstimate ? ", by the boat's own estimate" : "";
+  return result.scenario + profile + ": " + outcome_words(result) + ", " + fixed(result.time_s, 1) +
+         " s" + estimated;
 }
 
 }  // namespace lodesman::cli

@@ -89,10 +89,10 @@ std::vector<Entry> plan_entries(const LegendNeeds& needs) {
 }
 
 std::vector<Entry> entries_for(const LegendNeeds& needs) {
-  std::vector<Entry> entries{{"vehicle, pale: earlier", add_fading_vehicles},
-                             {"trajectory (true)", [](PlotScript& script, Point at) {
-                                add_trajectory(script, short_line(at));
-                              }}};
+  std::vector<Entry> entries{
+      {"vehicle, pale: earlier", add_fading_vehicles},
+      {needs.truth ? "trajectory (true)" : "trajectory as estimated",
+       [](PlotScript& script, Point at) { add_trajectory(script, short_line(at)); }}};
   if (needs.estimate) {
     entries.push_back({"trajectory as estimated", [](PlotScript& script, Point at) {
                          add_estimated_trajectory(script, short_line(at));
@@ -131,7 +131,9 @@ LegendNeeds legend_needs(const RunRecord& record, const std::vector<Moment>& mom
     needs.previous_waypoints =
         needs.previous_waypoints || are_previous || moment.replaced != nullptr;
   }
+  needs.truth = record.result.counted_from == CountedFrom::kTruth;
   needs.estimate =
+      needs.truth &&
       std::any_of(record.trajectory.begin(), record.trajectory.end(), [](const TrajectoryRow& row) {
         return std::hypot(row.x_m - row.estimate_x_m, row.y_m - row.estimate_y_m) >
                kEstimateShown_m;

@@ -18,7 +18,8 @@ struct LegendNeeds {
   bool path = false;
   bool current_waypoints = false;
   bool previous_waypoints = false;
-  bool estimate = false;
+  bool truth = true;      // the track is true, else the boat's own estimate
+  bool estimate = false;  // beside the true one
 };
 
 [[nodiscard]] LegendNeeds legend_needs(const RunRecord& record, const std::vector<Moment>& moments);

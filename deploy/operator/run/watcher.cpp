@@ -80,6 +80,7 @@ void RunWatcher::take_mission() {
       note(mission->stamp, kDisarmedWords);
     }
     status_ = mission->value;
+    status_.first_started = begins_.value_or(status_.first_started);
   }
 }
 
@@ -337,10 +338,6 @@ PlanRecord RunWatcher::describe(const Stamped<Plan>& published, const SonarPath*
   return record;
 }
 
-double RunWatcher::scenario_time_of(Time stamp) const noexcept {
-  return status_.first_started == Time{} ? 0.0 : to_seconds(stamp - status_.first_started);
-}
-
 RunProgress RunWatcher::progress() const {
   RunProgress progress;
   progress.state = status_.state;
@@ -365,8 +362,9 @@ bool RunWatcher::is_holding() const {
 RunRecord RunWatcher::finish() {
   RunResult& result = record_.result;
   result.reached = status_.state == MissionState::kReached;
-  result.collided = result.min_inoffensive_distance_m.value_or(1.0) < 0.0 ||
-                    result.min_hull_clearance_m.value_or(1.0) < 0.0;
+  result.collided = result.counted_from == CountedFrom::kTruth &&
+                    (result.min_inoffensive_distance_m.value_or(1.0) < 0.0 ||
+                     result.min_hull_clearance_m.value_or(1.0) < 0.0);
   result.outcome = result.collided                           ? "collision"
                    : result.reached                          ? "goal"
                    : status_.state == MissionState::kAborted ? "aborted"

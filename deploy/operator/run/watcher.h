@@ -43,6 +43,12 @@ class RunWatcher {
   // that comes later costs samples, which are counted, but never the nearest distance.
   void poll();
 
+  // Of the truth that it was given; by the estimate nothing counts as a collision.
+  void count_from(CountedFrom source) noexcept { record_.result.counted_from = source; }
+
+  // Times count from then, instead of from the boat's first start.
+  void count_times_from(Time begins) noexcept { begins_ = begins; }
+
   [[nodiscard]] bool mission_ended() const noexcept { return ended_; }  // reached or aborted
   [[nodiscard]] Time mission_started() const noexcept { return status_.first_started; }  // 0 before
   [[nodiscard]] RunProgress progress() const;
@@ -70,7 +76,9 @@ class RunWatcher {
   void add_row(const WorldTruth& truth);
   [[nodiscard]] const SonarPath* answer_to(const Plan& plan);
   [[nodiscard]] PlanRecord describe(const Stamped<Plan>& plan, const SonarPath* path) const;
-  [[nodiscard]] double scenario_time_of(Time stamp) const noexcept;
+  [[nodiscard]] double scenario_time_of(Time stamp) const noexcept {
+    return status_.first_started == Time{} ? 0.0 : to_seconds(stamp - status_.first_started);
+  }
   void end_at_truth() noexcept;
   [[nodiscard]] bool is_holding() const;
 
@@ -89,6 +97,7 @@ class RunWatcher {
   Reader<SonarPath> path_;
   std::vector<Reader<TaskHealth>> health_;
 
+  std::optional<Time> begins_;
   MissionStatus status_;
   std::optional<Notice> notice_;
   NoWayCause told_cause_ = NoWayCause::kNone;

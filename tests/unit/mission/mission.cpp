@@ -286,6 +286,10 @@ TEST_CASE(
     CHECK(ordered.mission.status().ended == s(3));
     CHECK(ordered.mission.status().aborts == 0);  // nobody has ordered one
     CHECK(ordered.give(OperatorOrder::kResume, s(4)) == OrderAnswer::kNotHolding);
+    // A start that was on its way when the fault came.
+    ordered.mission.take({{OperatorOrder::kStart, 0}, ++ordered.sequence, s(2.9)}, {}, s(4));
+    CHECK(ordered.mission.status().answer == OrderAnswer::kAborted);
+    CHECK(ordered.state() == MissionState::kAborted);
     CHECK(ordered.give(OperatorOrder::kStart, s(5)) == OrderAnswer::kObeyed);
     CHECK(ordered.mission.under_way());
     CHECK(ordered.mission.status().cause == MissionCause::kOrder);

@@ -8,7 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include "tests/support/allocations.h"
 #include "tests/support/catch.h"
 
 using namespace lodesman;
@@ -136,15 +135,4 @@ TEST_CASE("publication queue: two threads pass everything on, each publication o
   CHECK(whole);
   CHECK(in_order);
   CHECK(next == kCount + 1);
-}
-
-TEST_CASE("publication queue: the producer asks nothing of the heap", "[recorder]") {
-  PublicationQueue queue{PublicationQueue::kLeast_bytes};
-  const lodesman::testing::AllocationScope scope;
-  std::uint64_t sequence = 0;
-  while (offer(queue, ++sequence, 100'000)) {
-  }
-  queue.note({kChannel + 1, GapCause::kOverwritten, 1, 2});
-  queue.tell_gaps();
-  CHECK(scope.count() == 0);
 }

@@ -92,6 +92,7 @@ TEST_CASE(
       [&](const std::filesystem::path&) { return std::make_unique<StuckFile>(disk, is_stuck); },
       [] { return UINT64_MAX / 2; }};
   BoardTap tap{*board};
+  std::jthread freeing;
   {
     const RecorderLoop loop{tap, RecorderLoop::Board::kTheSame, series,
                             PublicationQueue::kLeast_bytes, [](const std::string&) {}};
@@ -104,7 +105,11 @@ TEST_CASE(
       pings.publish(*ping, SteadyClock{}.now());
       std::this_thread::sleep_for(2 * RecorderLoop::kPollPeriod);
     }
-    is_stuck.store(false);
+    // Once the last look has found the queue full.
+    freeing = std::jthread{[&is_stuck] {
+      std::this_thread::sleep_for(20 * RecorderLoop::kPollPeriod);
+      is_stuck.store(false);
+    }};
   }
   series.close();
   const Told told = told_of_pings(disk);

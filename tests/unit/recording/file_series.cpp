@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "mid_level/base/startup_error.h"
 #include "mid_level/recording/mcap_reader.h"
@@ -48,6 +49,26 @@ struct Contents {
   contents.ending = reader.ending();
   return contents;
 }
+
+// One write fails, and those after it do not.
+class OnceFailingFile final : public RecordFile {
+ public:
+  OnceFailingFile(Disk& disk, int& next_error) noexcept : file_{disk}, next_error_{next_error} {}
+
+  [[nodiscard]] int write(std::span<const std::byte> bytes) noexcept override {
+    const int error = std::exchange(next_error_, 0);
+    return error != 0 ? error : file_.write(bytes);
+  }
+  [[nodiscard]] int cut_to(std::uint64_t size_bytes) noexcept override {
+    return file_.cut_to(size_bytes);
+  }
+  [[nodiscard]] int sync() noexcept override { return file_.sync(); }
+  [[nodiscard]] int keep() noexcept override { return file_.keep(); }
+
+ private:
+  MemoryFile file_;
+  int& next_error_;
+};
 
 // A series whose files are in memory.
 struct Shelf {
@@ -236,6 +257,97 @@ TEST_CASE("file series: a disk that fails costs the last chunk, which the next f
     CHECK(series.lost() == 2);
     CHECK(series.recorded() == 2);
   }
+}
+
+TEST_CASE("file series: what does not fit when a file is closed is told in the next",
+          "[recording]") {
+  Shelf shelf;
+  int next_error = 0;
+  FileSeries series{shelf.options,
+                    {},
+                    [&](const std::filesystem::path& path) {
+                      return std::make_unique<OnceFailingFile>(shelf.disks[path.string()],
+                                                               next_error);
+                    },
+                    [] { return std::uint64_t{1} << 40; }};
+  publish(series, "attitude", 1, at(0));
+  series.tick(at(1000));
+  publish(series, "attitude", 2, at(1100));
+  next_error = ENOSPC;
+  series.close();
+  const Disk& disk = shelf.disks.at("boat.mcap");
+  CHECK(disk.kept);
+  const Contents before = contents_of(disk.bytes);
+  CHECK(before.ending == McapEnding::kWhole);
+  CHECK(before.sequences.at("raw/attitude") == std::vector<std::uint32_t>{1});
+  CHECK(series.has_failed());
+  CHECK(series.failure().find("boat.mcap") == 0);
+  CHECK(series.lost() == 1);
+  CHECK(series.recorded() == 1);
+  publish(series, "attitude", 3, at(1200));
+  series.close();
+  const Contents after = contents_of(shelf.disks.at("boat-2.mcap").bytes);
+  REQUIRE(after.gaps.size() == 1);
+  CHECK(after.gaps[0]["first"] == 2);
+  CHECK(after.gaps[0]["last"] == 2);
+}
+
+TEST_CASE("file series: what a disk does not sync is told in the next file", "[recording]") {
+  Shelf shelf;
+  FileSeries series = shelf.series();
+  publish(series, "attitude", 1, at(0));
+  series.tick(at(1000));
+  publish(series, "attitude", 2, at(1100));
+  shelf.disks.at("boat.mcap").sync_error = EIO;
+  series.tick(at(2100));
+  CHECK(series.state() == SeriesState::kNoRoom);
+  CHECK(series.lost() == 1);
+  CHECK(series.recorded() == 1);
+  series.tick(at(20'000));
+  publish(series, "attitude", 3, at(20'100));
+  series.close();
+  const Contents after = contents_of(shelf.disks.at("boat-2.mcap").bytes);
+  REQUIRE(after.gaps.size() == 1);
+  CHECK(after.gaps[0]["first"] == 2);
+  CHECK(after.gaps[0]["last"] == 2);
+}
+
+TEST_CASE("file series: what is said again is not lost with the file that says it again",
+          "[recording]") {
+  Shelf shelf;
+  shelf.options.said_again = {"mission_definition"};
+  FileSeries series = shelf.series();
+  publish(series, "mission_definition", 1, at(0));
+  publish(series, "attitude", 1, at(10));
+  series.close();
+  publish(series, "attitude", 2, at(100));
+  Disk& disk = shelf.disks.at("boat-2.mcap");
+  disk.room_bytes = disk.bytes.size() + 50;
+  series.tick(at(2000));
+  CHECK(series.state() == SeriesState::kNoRoom);
+  CHECK(series.lost() == 1);
+  CHECK(series.recorded() == 2);
+}
+
+TEST_CASE("file series: gaps of another blackboard are no gaps of this one, but are said",
+          "[recording]") {
+  Shelf shelf;
+  shelf.options.free_floor_bytes = 1;
+  shelf.free_bytes = 0;
+  FileSeries series = shelf.series();
+  publish(series, "attitude", 7, at(0));
+  publish(series, "attitude", 8, at(10));
+  static_cast<void>(series.news());
+  series.begin_anew();
+  const auto news = series.news();
+  REQUIRE(news.size() == 1);
+  CHECK(news[0].find("2 publications") == 0);
+  shelf.free_bytes = std::uint64_t{1} << 40;
+  series.tick(at(2000));
+  publish(series, "attitude", 1, at(2100));
+  series.close();
+  CHECK(contents_of(shelf.disks.at("boat.mcap").bytes).gaps.empty());
+  CHECK(series.lost() == 2);
 }
 
 TEST_CASE("file series: a gap that is handed on stands in the file", "[recording]") {

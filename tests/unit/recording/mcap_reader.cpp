@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mid_level/recording/mcap_reader.h"
 
+#include <zstd.h>
+
 #include <random>
 #include <set>
 #include <string>
@@ -166,6 +168,36 @@ TEST_CASE("mcap reader: sizes that a file claims are not believed", "[recording]
   chunk.end_record(place);
   McapBytesSource large_chunk{chunk.bytes()};
   CHECK(look_through(large_chunk).damaged == 1);
+}
+
+// As encoders that stream write it.
+TEST_CASE("mcap reader: a chunk whose frame does not say its size is read", "[recording]") {
+  McapPutter records;
+  put(records, McapSchema{1, "s", "e", std::string(1000, 'd')});
+  ZSTD_CCtx* context = ZSTD_createCCtx();
+  ZSTD_CCtx_setParameter(context, ZSTD_c_contentSizeFlag, 0);
+  std::vector<std::byte> packed(ZSTD_compressBound(records.size()));
+  packed.resize(ZSTD_compress2(context, packed.data(), packed.size(), records.bytes().data(),
+                               records.size()));
+  ZSTD_freeCCtx(context);
+  REQUIRE(ZSTD_getFrameContentSize(packed.data(), packed.size()) == ZSTD_CONTENTSIZE_UNKNOWN);
+  for (const std::uint64_t size :
+       {std::uint64_t{records.size()}, std::uint64_t{records.size() - 1}, std::uint64_t{1} << 27}) {
+    INFO(size << " bytes");
+    McapPutter file;
+    file.magic();
+    const auto place = file.begin_record(McapOpcode::kChunk);
+    file.number(std::uint64_t{0});
+    file.number(std::uint64_t{0});
+    file.number(size);
+    file.number(crc32_of(records.bytes()));
+    file.text("zstd");
+    file.number(std::uint64_t{packed.size()});
+    file.raw(packed);
+    file.end_record(place);
+    McapBytesSource source{file.bytes()};
+    CHECK(look_through(source).chunks == (size == records.size() ? 1U : 0U));
+  }
 }
 
 TEST_CASE("mcap reader: what is no MCAP file is said to be none", "[recording]") {

@@ -98,7 +98,8 @@ const std::vector<std::string> kResultKeys{"scenario",
                                            "real_time_factor",
                                            "recording_hash",
                                            "origin_deg",
-                                           "version"};
+                                           "version",
+                                           "counted_from"};
 
 }  // namespace
 
