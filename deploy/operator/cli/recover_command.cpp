@@ -92,7 +92,7 @@ void remove_left_over(const fs::path& part) {
   remove_left_over(beside);
   DiskFile file{beside};
   McapWriter writer{file, std::string{"lodesman recover "} + kVersion};
-  const McapRecovery recovery = recover(source, writer);
+  McapRecovery recovery = recover(source, writer);
   const int failed = writer.fault() != 0 ? writer.fault() : file.keep();
   if (failed != 0) {
     refuse(failed);
