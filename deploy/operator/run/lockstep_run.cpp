@@ -14,6 +14,18 @@ namespace {
 constexpr Duration kShowPeriod = std::chrono::seconds{1};      // virtual
 constexpr Duration kStartPatience = std::chrono::seconds{20};  // for the devices to be ready
 
+[[nodiscard]] std::vector<TaskEntry> tasks_of(AssembledBoat& boat, HighLevel& high,
+                                              const LockstepRun& run) {
+  std::vector<TaskEntry> tasks = boat.tasks();
+  for (const auto& entry : high.tasks()) {
+    tasks.push_back(entry);
+  }
+  if (run.on_tasks) {
+    run.on_tasks(tasks);
+  }
+  return tasks;
+}
+
 }  // namespace
 
 RunRecord run_lockstep(const LockstepRun& run) {
@@ -23,13 +35,7 @@ RunRecord run_lockstep(const LockstepRun& run) {
   const HighLevelOptions options = high_level_options(run.configuration, voyage);
   AssembledBoat boat{*board, run.configuration, &run.scenario};
   HighLevel high{*board, Role::kHigh, options};
-  std::vector<TaskEntry> tasks = boat.tasks();
-  for (const auto& entry : high.tasks()) {
-    tasks.push_back(entry);
-  }
-  if (run.on_tasks) {
-    run.on_tasks(tasks);
-  }
+  std::vector<TaskEntry> tasks = tasks_of(boat, high, run);
   SimClock clock;
   // Not zero: a stamp of zero means "never".
   clock.advance_to(Time{std::chrono::seconds{1}});
