@@ -312,7 +312,7 @@ unshare --net ip link add boat type veth peer name shore || {
   say "NOT TRIED: this machine joins no networks, so that nothing can be commanded from outside"
   exit 0
 }
-quietly cmake --preset release
+quietly cmake --preset release -DBUILD_TESTING=ON
 quietly cmake --build --preset release --target hang_task
 deploy/package.sh --release 2
 cp build/release/package/lodesman_*-2_*.deb "$place/2.deb"
