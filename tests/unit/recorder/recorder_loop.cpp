@@ -21,24 +21,19 @@ using nlohmann::json;
 namespace {
 
 // A disk that takes nothing until it is told to.
-class StuckFile final : public RecordFile {
+class StuckFile final : public MemoryFile {
  public:
-  StuckFile(Disk& disk, const std::atomic<bool>& is_stuck) : file_{disk}, is_stuck_{is_stuck} {}
+  StuckFile(Disk& disk, const std::atomic<bool>& is_stuck)
+      : MemoryFile{disk}, is_stuck_{is_stuck} {}
 
   [[nodiscard]] int write(std::span<const std::byte> bytes) noexcept override {
     while (is_stuck_.load()) {
       std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
-    return file_.write(bytes);
+    return MemoryFile::write(bytes);
   }
-  [[nodiscard]] int cut_to(std::uint64_t size_bytes) noexcept override {
-    return file_.cut_to(size_bytes);
-  }
-  [[nodiscard]] int sync() noexcept override { return file_.sync(); }
-  [[nodiscard]] int keep() noexcept override { return file_.keep(); }
 
  private:
-  MemoryFile file_;
   const std::atomic<bool>& is_stuck_;
 };
 

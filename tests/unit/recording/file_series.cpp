@@ -51,22 +51,17 @@ struct Contents {
 }
 
 // One write fails, and those after it do not.
-class OnceFailingFile final : public RecordFile {
+class OnceFailingFile final : public MemoryFile {
  public:
-  OnceFailingFile(Disk& disk, int& next_error) noexcept : file_{disk}, next_error_{next_error} {}
+  OnceFailingFile(Disk& disk, int& next_error) noexcept
+      : MemoryFile{disk}, next_error_{next_error} {}
 
   [[nodiscard]] int write(std::span<const std::byte> bytes) noexcept override {
     const int error = std::exchange(next_error_, 0);
-    return error != 0 ? error : file_.write(bytes);
+    return error != 0 ? error : MemoryFile::write(bytes);
   }
-  [[nodiscard]] int cut_to(std::uint64_t size_bytes) noexcept override {
-    return file_.cut_to(size_bytes);
-  }
-  [[nodiscard]] int sync() noexcept override { return file_.sync(); }
-  [[nodiscard]] int keep() noexcept override { return file_.keep(); }
 
  private:
-  MemoryFile file_;
   int& next_error_;
 };
 

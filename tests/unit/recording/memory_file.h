@@ -21,7 +21,7 @@ struct Disk {
   bool kept = false;
 };
 
-class MemoryFile final : public RecordFile {
+class MemoryFile : public RecordFile {
  public:
   explicit MemoryFile(Disk& disk) noexcept : disk_{disk} {}
 
