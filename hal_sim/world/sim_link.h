@@ -32,15 +32,11 @@ struct WorldSample {
 
   static constexpr auto fields() noexcept {
     using W = WorldSample;
-    return std::tuple{field("stamp", &W::stamp),
-                      field("started", &W::started),
-                      field("scenario_time_s", &W::scenario_time_s),
-                      field("x_m", &W::x_m),
-                      field("y_m", &W::y_m),
-                      field("heading_rad", &W::heading_rad),
-                      field("surge_m_s", &W::surge_m_s),
-                      field("sway_m_s", &W::sway_m_s),
-                      field("yaw_rate_rad_s", &W::yaw_rate_rad_s)};
+    return field_list(field("stamp", &W::stamp), field("started", &W::started),
+                      field("scenario_time_s", &W::scenario_time_s), field("x_m", &W::x_m),
+                      field("y_m", &W::y_m), field("heading_rad", &W::heading_rad),
+                      field("surge_m_s", &W::surge_m_s), field("sway_m_s", &W::sway_m_s),
+                      field("yaw_rate_rad_s", &W::yaw_rate_rad_s));
   }
 };
 
@@ -50,7 +46,7 @@ struct SimThrust {
   std::uint8_t right = 128;  // [-] [0, 255]
 
   static constexpr auto fields() noexcept {
-    return std::tuple{field("left", &SimThrust::left), field("right", &SimThrust::right)};
+    return field_list(field("left", &SimThrust::left), field("right", &SimThrust::right));
   }
 };
 

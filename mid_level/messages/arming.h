@@ -29,7 +29,7 @@ struct ThrustOrder {
   std::uint64_t stops = 0;  // [-] ordered on this blackboard so far, this one included
 
   static constexpr auto fields() noexcept {
-    return std::tuple{field("order", &ThrustOrder::order), field("stops", &ThrustOrder::stops)};
+    return field_list(field("order", &ThrustOrder::order), field("stops", &ThrustOrder::stops));
   }
 };
 
@@ -40,9 +40,9 @@ struct ManualInput {
   bool overrides_guard = false;
 
   static constexpr auto fields() noexcept {
-    return std::tuple{field("surge_ref", &ManualInput::surge_ref).within(-100, 100),
+    return field_list(field("surge_ref", &ManualInput::surge_ref).within(-100, 100),
                       field("head_ref", &ManualInput::head_ref).within(-100, 100),
-                      field("overrides_guard", &ManualInput::overrides_guard)};
+                      field("overrides_guard", &ManualInput::overrides_guard));
   }
 };
 
@@ -121,15 +121,11 @@ struct ThrustStatus {
 
   static constexpr auto fields() noexcept {
     using S = ThrustStatus;
-    return std::tuple{field("state", &S::state),
-                      field("cause", &S::cause),
-                      field("since", &S::since),
-                      field("armed", &S::armed),
-                      field("objections", &S::objections),
-                      field("order", &S::order),
-                      field("answer", &S::answer),
-                      field("refused_for", &S::refused_for),
-                      field("stops", &S::stops)};
+    return field_list(field("state", &S::state), field("cause", &S::cause),
+                      field("since", &S::since), field("armed", &S::armed),
+                      field("objections", &S::objections), field("order", &S::order),
+                      field("answer", &S::answer), field("refused_for", &S::refused_for),
+                      field("stops", &S::stops));
   }
 };
 
@@ -140,7 +136,7 @@ struct BoxProof {
   std::uint64_t power_up = 0;  // [-] of the box, as the system knows it; 0: it does not
 
   static constexpr auto fields() noexcept {
-    return std::tuple{field("proved", &BoxProof::proved), field("power_up", &BoxProof::power_up)};
+    return field_list(field("proved", &BoxProof::proved), field("power_up", &BoxProof::power_up));
   }
 };
 
@@ -163,8 +159,8 @@ struct BatteryStatus {
 
   static constexpr auto fields() noexcept {
     using B = BatteryStatus;
-    return std::tuple{field("level", &B::level), field("volts", &B::volts).within(0.0, 1000.0),
-                      field("rest_volts", &B::rest_volts).within(0.0, 1000.0)};
+    return field_list(field("level", &B::level), field("volts", &B::volts).within(0.0, 1000.0),
+                      field("rest_volts", &B::rest_volts).within(0.0, 1000.0));
   }
 };
 

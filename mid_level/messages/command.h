@@ -27,9 +27,9 @@ struct OperatorCommand {
   std::uint64_t mission = 0;  // [-] start: MissionDefinition::id; 0: the one at hand
 
   static constexpr auto fields() noexcept {
-    return std::tuple{field("order", &OperatorCommand::order),
+    return field_list(field("order", &OperatorCommand::order),
                       field("aborts", &OperatorCommand::aborts),
-                      field("mission", &OperatorCommand::mission)};
+                      field("mission", &OperatorCommand::mission));
   }
 };
 
@@ -107,24 +107,16 @@ struct MissionStatus {
 
   static constexpr auto fields() noexcept {
     using M = MissionStatus;
-    return std::tuple{field("state", &M::state),
-                      field("cause", &M::cause),
-                      field("mission", &M::mission),
-                      field("speed_m_s", &M::speed_m_s).within(0.0, 100.0),
-                      field("surge_ref", &M::surge_ref).within(0, 100),
-                      field("first_started", &M::first_started),
-                      field("started", &M::started),
-                      field("ended", &M::ended),
-                      field("goal_index", &M::goal_index),
-                      field("goal_x_m", &M::goal_x_m),
-                      field("goal_y_m", &M::goal_y_m),
-                      field("home_x_m", &M::home_x_m),
-                      field("home_y_m", &M::home_y_m),
-                      field("aborts", &M::aborts),
-                      field("order", &M::order),
-                      field("answer", &M::answer),
-                      field("no_way", &M::no_way),
-                      field("no_way_since", &M::no_way_since)};
+    return field_list(
+        field("state", &M::state), field("cause", &M::cause), field("mission", &M::mission),
+        field("speed_m_s", &M::speed_m_s).within(0.0, 100.0),
+        field("surge_ref", &M::surge_ref).within(0, 100), field("first_started", &M::first_started),
+        field("started", &M::started), field("ended", &M::ended),
+        field("goal_index", &M::goal_index), field("goal_x_m", &M::goal_x_m),
+        field("goal_y_m", &M::goal_y_m), field("home_x_m", &M::home_x_m),
+        field("home_y_m", &M::home_y_m), field("aborts", &M::aborts), field("order", &M::order),
+        field("answer", &M::answer), field("no_way", &M::no_way),
+        field("no_way_since", &M::no_way_since));
   }
 };
 
@@ -135,7 +127,7 @@ struct Waypoint {
   double y_m = 0.0;  // [m] [world]
 
   static constexpr auto fields() noexcept {
-    return std::tuple{field("x_m", &Waypoint::x_m), field("y_m", &Waypoint::y_m)};
+    return field_list(field("x_m", &Waypoint::x_m), field("y_m", &Waypoint::y_m));
   }
 };
 
@@ -215,32 +207,21 @@ struct Plan {
 
   static constexpr auto fields() noexcept {
     using P = Plan;
-    return std::tuple{
-        field("id", &P::id),
-        field("frame", &P::frame),
-        field("captured", &P::captured),
-        field("pose_x_m", &P::pose_x_m),
-        field("pose_y_m", &P::pose_y_m),
+    return field_list(
+        field("id", &P::id), field("frame", &P::frame), field("captured", &P::captured),
+        field("pose_x_m", &P::pose_x_m), field("pose_y_m", &P::pose_y_m),
         field("pose_heading_rad", &P::pose_heading_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
-        field("goal_x_m", &P::goal_x_m),
-        field("goal_y_m", &P::goal_y_m),
-        field("reason", &P::reason),
-        field("lost_since", &P::lost_since),
-        field("source", &P::source),
-        field("rung", &P::rung),
-        field("steer_by", &P::steer_by),
+        field("goal_x_m", &P::goal_x_m), field("goal_y_m", &P::goal_y_m),
+        field("reason", &P::reason), field("lost_since", &P::lost_since),
+        field("source", &P::source), field("rung", &P::rung), field("steer_by", &P::steer_by),
         field("course_rad", &P::course_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
         field("speed_share", &P::speed_share).within(-100.0, 100.0),
-        field("stay_at_end", &P::stay_at_end),
-        field("narrow", &P::narrow),
-        field("changed", &P::changed),
-        field("cause", &P::cause),
+        field("stay_at_end", &P::stay_at_end), field("narrow", &P::narrow),
+        field("changed", &P::changed), field("cause", &P::cause),
         field("clearance_m", &P::clearance_m).or_infinite(),
-        field("clearance_after_s", &P::clearance_after_s),
-        field("path_id", &P::path_id),
-        field("path_captured", &P::path_captured),
-        field("waypoint_count", &P::waypoint_count),
-        field("waypoints", &P::waypoints, &P::waypoint_count)};
+        field("clearance_after_s", &P::clearance_after_s), field("path_id", &P::path_id),
+        field("path_captured", &P::path_captured), field("waypoint_count", &P::waypoint_count),
+        field("waypoints", &P::waypoints, &P::waypoint_count));
   }
 };
 
@@ -272,14 +253,11 @@ struct HelmCommand {
 
   static constexpr auto fields() noexcept {
     using C = HelmCommand;
-    return std::tuple{field("reason", &C::reason),
-                      field("surge_ref", &C::surge_ref).within(-100, 100),
-                      field("head_ref", &C::head_ref).within(-100, 100),
-                      field("plan_id", &C::plan_id),
-                      field("plan_captured", &C::plan_captured),
-                      field("waypoint_index", &C::waypoint_index),
-                      field("waypoint_x_m", &C::waypoint_x_m),
-                      field("waypoint_y_m", &C::waypoint_y_m)};
+    return field_list(
+        field("reason", &C::reason), field("surge_ref", &C::surge_ref).within(-100, 100),
+        field("head_ref", &C::head_ref).within(-100, 100), field("plan_id", &C::plan_id),
+        field("plan_captured", &C::plan_captured), field("waypoint_index", &C::waypoint_index),
+        field("waypoint_x_m", &C::waypoint_x_m), field("waypoint_y_m", &C::waypoint_y_m));
   }
 };
 
@@ -326,15 +304,12 @@ struct ThrustApplied {
 
   static constexpr auto fields() noexcept {
     using T = ThrustApplied;
-    return std::tuple{field("reason", &T::reason),
-                      field("left", &T::left),
-                      field("right", &T::right),
-                      field("surge_ref", &T::surge_ref).within(-100, 100),
-                      field("head_ref", &T::head_ref).within(-100, 100),
-                      field("command_sequence", &T::command_sequence),
-                      field("command_stamp", &T::command_stamp),
-                      field("plan_id", &T::plan_id),
-                      field("plan_captured", &T::plan_captured)};
+    return field_list(
+        field("reason", &T::reason), field("left", &T::left), field("right", &T::right),
+        field("surge_ref", &T::surge_ref).within(-100, 100),
+        field("head_ref", &T::head_ref).within(-100, 100),
+        field("command_sequence", &T::command_sequence), field("command_stamp", &T::command_stamp),
+        field("plan_id", &T::plan_id), field("plan_captured", &T::plan_captured));
   }
 };
 

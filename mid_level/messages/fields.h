@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <tuple>
 #include <type_traits>
 
 #include "mid_level/base/time.h"
@@ -73,6 +72,13 @@ template <class M, class T>
 [[nodiscard]] constexpr MeasuredField<M, T> measured_field(const char* name,
                                                            T M::*member) noexcept {
   return {name, member};
+}
+
+// The fields of a message in their order, to be handed to a visitor all at once: fields()(visitor).
+// Flat, where a std::tuple of so many would cost each source file seconds.
+template <class... Fields>
+[[nodiscard]] constexpr auto field_list(Fields... fields) noexcept {
+  return [=](auto&& visitor) { return visitor(fields...); };
 }
 
 template <class M>
@@ -153,7 +159,7 @@ void visit_message(Sink& sink, const M& message) {
       visit_value(sink, f.name, message.*(f.member));
     }
   };
-  std::apply([&](const auto&... f) { (visit_one(f), ...); }, M::fields());
+  M::fields()([&](const auto&... f) { (visit_one(f), ...); });
 }
 
 template <class Sink, class T>

@@ -47,14 +47,11 @@ struct GuardStatus {
 
   static constexpr auto fields() noexcept {
     using G = GuardStatus;
-    return std::tuple{field("state", &G::state),
-                      field("reason", &G::reason),
-                      field("since", &G::since),
-                      field("tripped", &G::tripped),
-                      field("trips", &G::trips),
-                      field("distance_m", &G::distance_m),
+    return field_list(field("state", &G::state), field("reason", &G::reason),
+                      field("since", &G::since), field("tripped", &G::tripped),
+                      field("trips", &G::trips), field("distance_m", &G::distance_m),
                       field("trip_speed_m_s", &G::trip_speed_m_s).within(-100.0, 100.0),
-                      field("speed_m_s", &G::speed_m_s).within(-100.0, 100.0)};
+                      field("speed_m_s", &G::speed_m_s).within(-100.0, 100.0));
   }
 };
 

@@ -36,20 +36,16 @@ struct TaskHealth {
 
   static constexpr auto fields() noexcept {
     using T = TaskHealth;
-    return std::tuple{field("steps", &T::steps),
-                      field("overruns", &T::overruns),
-                      field("refused", &T::refused),
-                      measured_field("last_step_ns", &T::last_step_ns),
-                      measured_field("worst_step_ns", &T::worst_step_ns),
-                      measured_field("worst_late_ns", &T::worst_late_ns),
-                      measured_field("fifo_priority", &T::fifo_priority),
-                      measured_field("wakes", &T::wakes),
-                      measured_field("worst_wake_late_ns", &T::worst_wake_late_ns),
-                      measured_field("over_budget", &T::over_budget),
-                      measured_field("past_deadline", &T::past_deadline),
-                      measured_field("late", &T::late),
-                      measured_field("wake_late", &T::wake_late),
-                      measured_field("took", &T::took)};
+    return field_list(
+        field("steps", &T::steps), field("overruns", &T::overruns), field("refused", &T::refused),
+        measured_field("last_step_ns", &T::last_step_ns),
+        measured_field("worst_step_ns", &T::worst_step_ns),
+        measured_field("worst_late_ns", &T::worst_late_ns),
+        measured_field("fifo_priority", &T::fifo_priority), measured_field("wakes", &T::wakes),
+        measured_field("worst_wake_late_ns", &T::worst_wake_late_ns),
+        measured_field("over_budget", &T::over_budget),
+        measured_field("past_deadline", &T::past_deadline), measured_field("late", &T::late),
+        measured_field("wake_late", &T::wake_late), measured_field("took", &T::took));
   }
 };
 
@@ -178,13 +174,10 @@ struct DeviceHealth {
 
   static constexpr auto fields() noexcept {
     using D = DeviceHealth;
-    return std::tuple{field("status", &D::status),
-                      field("fault", &D::fault),
-                      field("since", &D::since),
-                      field("samples", &D::samples),
-                      field("corrupt", &D::corrupt),
-                      field("refused", &D::refused),
-                      field("disconnections", &D::disconnections)};
+    return field_list(field("status", &D::status), field("fault", &D::fault),
+                      field("since", &D::since), field("samples", &D::samples),
+                      field("corrupt", &D::corrupt), field("refused", &D::refused),
+                      field("disconnections", &D::disconnections));
   }
 };
 

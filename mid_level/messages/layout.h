@@ -3,11 +3,11 @@
 // other's messages. It looks at types alone, never at values. Any thread.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <tuple>
 #include <type_traits>
 
 #include "mid_level/messages/fields.h"
@@ -85,8 +85,7 @@ void visit_layout(Sink& sink) {
   sink(std::uint64_t{sizeof(T)});
   if constexpr (HasFields<T>) {
     const auto message = std::make_unique<T>();
-    std::apply([&](const auto&... f) { (detail::visit_field_layout(sink, *message, f), ...); },
-               T::fields());
+    T::fields()([&](const auto&... f) { (detail::visit_field_layout(sink, *message, f), ...); });
   } else if constexpr (std::is_enum_v<T>) {
     for (const char* name : enumerators(T{})) {
       sink(name);

@@ -37,8 +37,8 @@ struct Goal {
   double y_m = 0.0;  // [m] [world]
 
   static constexpr auto fields() noexcept {
-    return std::tuple{field("x_m", &Goal::x_m).within(-1e6, 1e6),
-                      field("y_m", &Goal::y_m).within(-1e6, 1e6)};
+    return field_list(field("x_m", &Goal::x_m).within(-1e6, 1e6),
+                      field("y_m", &Goal::y_m).within(-1e6, 1e6));
   }
 };
 
@@ -62,8 +62,8 @@ struct MissionArea {
 
   static constexpr auto fields() noexcept {
     using A = MissionArea;
-    return std::tuple{field("kind", &A::kind), field("corner_count", &A::corner_count),
-                      field("corners", &A::corners, &A::corner_count)};
+    return field_list(field("kind", &A::kind), field("corner_count", &A::corner_count),
+                      field("corners", &A::corners, &A::corner_count));
   }
 };
 
@@ -88,16 +88,13 @@ struct MissionDefinition {
 
   static constexpr auto fields() noexcept {
     using M = MissionDefinition;
-    return std::tuple{field("id", &M::id),
-                      field("speed_m_s", &M::speed_m_s).within(0.0, 100.0),
-                      field("goal_radius_m", &M::goal_radius_m).within(0.0, 1e3),
-                      field("goal_count", &M::goal_count),
-                      field("link_lost", &M::link_lost),
-                      field("link_lost_after", &M::link_lost_after),
-                      field("on_restart", &M::on_restart),
-                      field("goals", &M::goals, &M::goal_count),
-                      field("area_count", &M::area_count),
-                      field("areas", &M::areas, &M::area_count)};
+    return field_list(
+        field("id", &M::id), field("speed_m_s", &M::speed_m_s).within(0.0, 100.0),
+        field("goal_radius_m", &M::goal_radius_m).within(0.0, 1e3),
+        field("goal_count", &M::goal_count), field("link_lost", &M::link_lost),
+        field("link_lost_after", &M::link_lost_after), field("on_restart", &M::on_restart),
+        field("goals", &M::goals, &M::goal_count), field("area_count", &M::area_count),
+        field("areas", &M::areas, &M::area_count));
   }
 };
 
@@ -110,8 +107,8 @@ struct CommandLink {
 
   static constexpr auto fields() noexcept {
     using L = CommandLink;
-    return std::tuple{field("session", &L::session), field("opened", &L::opened),
-                      field("heard", &L::heard)};
+    return field_list(field("session", &L::session), field("opened", &L::opened),
+                      field("heard", &L::heard));
   }
 };
 
@@ -128,12 +125,12 @@ struct Tunables {
 
   static constexpr auto fields() noexcept {
     using T = Tunables;
-    return std::tuple{field("version", &T::version),
+    return field_list(field("version", &T::version),
                       field("speed_limit_m_s", &T::speed_limit_m_s).within(0.0, 100.0),
                       field("margin_m", &T::margin_m).within(0.0, 20.0),
                       field("side_gain_m", &T::side_gain_m).within(0.0, 100.0),
                       field("manoeuvre_gain_s", &T::manoeuvre_gain_s).within(0.0, 100.0),
-                      field("heading_gain_per_deg", &T::heading_gain_per_deg).within(0.0, 100.0)};
+                      field("heading_gain_per_deg", &T::heading_gain_per_deg).within(0.0, 100.0));
   }
 };
 

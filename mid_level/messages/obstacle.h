@@ -28,7 +28,7 @@ struct Vertex {
   double y_m = 0.0;  // [m]
 
   static constexpr auto fields() noexcept {
-    return std::tuple{field("x_m", &Vertex::x_m), field("y_m", &Vertex::y_m)};
+    return field_list(field("x_m", &Vertex::x_m), field("y_m", &Vertex::y_m));
   }
 };
 
@@ -58,10 +58,8 @@ struct Obstacle {
 
   static constexpr auto fields() noexcept {
     using O = Obstacle;
-    return std::tuple{field("id", &O::id),
-                      field("shape", &O::shape),
-                      field("centre_x_m", &O::centre_x_m),
-                      field("centre_y_m", &O::centre_y_m),
+    return field_list(field("id", &O::id), field("shape", &O::shape),
+                      field("centre_x_m", &O::centre_x_m), field("centre_y_m", &O::centre_y_m),
                       field("semi_axis_first_m", &O::semi_axis_first_m).within(0.0, 1e6),
                       field("semi_axis_second_m", &O::semi_axis_second_m).within(0.0, 1e6),
                       field("angle_rad", &O::angle_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
@@ -69,7 +67,7 @@ struct Obstacle {
                       field("protection_second_m", &O::protection_second_m).within(0.0, 1e6),
                       field("peak", &O::peak).within(0.0, 255.0),
                       field("vertex_count", &O::vertex_count),
-                      field("vertices", &O::vertices, &O::vertex_count)};
+                      field("vertices", &O::vertices, &O::vertex_count));
   }
 };
 

@@ -30,12 +30,10 @@ struct WorldOrigin {
 
   static constexpr auto fields() noexcept {
     using W = WorldOrigin;
-    return std::tuple{field("latitude_deg", &W::latitude_deg).within(-90.0, 90.0),
+    return field_list(field("latitude_deg", &W::latitude_deg).within(-90.0, 90.0),
                       field("longitude_deg", &W::longitude_deg).within(-180.0, 180.0),
-                      field("source", &W::source),
-                      field("sigma_m", &W::sigma_m).within(0.0, 1e5),
-                      field("fixed", &W::fixed),
-                      field("utc_ns", &W::utc_ns).within(0.0, 4e18)};
+                      field("source", &W::source), field("sigma_m", &W::sigma_m).within(0.0, 1e5),
+                      field("fixed", &W::fixed), field("utc_ns", &W::utc_ns).within(0.0, 4e18));
   }
 };
 

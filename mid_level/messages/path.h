@@ -34,9 +34,9 @@ struct PathZone {
 
   static constexpr auto fields() noexcept {
     using Z = PathZone;
-    return std::tuple{field("shape", &Z::shape), field("give_m", &Z::give_m).within(0.0, 1e6),
+    return field_list(field("shape", &Z::shape), field("give_m", &Z::give_m).within(0.0, 1e6),
                       field("may_keep_to_port", &Z::may_keep_to_port),
-                      field("may_keep_to_starboard", &Z::may_keep_to_starboard)};
+                      field("may_keep_to_starboard", &Z::may_keep_to_starboard));
   }
 };
 
@@ -61,16 +61,12 @@ struct PathRequest {
 
   static constexpr auto fields() noexcept {
     using P = PathRequest;
-    return std::tuple{field("id", &P::id),
-                      field("frame", &P::frame),
-                      field("space", &P::space),
-                      field("goal_x_m", &P::goal_x_m),
-                      field("goal_y_m", &P::goal_y_m),
-                      field("start_x_m", &P::start_x_m),
-                      field("start_y_m", &P::start_y_m),
+    return field_list(field("id", &P::id), field("frame", &P::frame), field("space", &P::space),
+                      field("goal_x_m", &P::goal_x_m), field("goal_y_m", &P::goal_y_m),
+                      field("start_x_m", &P::start_x_m), field("start_y_m", &P::start_y_m),
                       field("side_gain_m", &P::side_gain_m).within(0.0, 1e6),
                       field("zone_count", &P::zone_count),
-                      field("zones", &P::zones, &P::zone_count)};
+                      field("zones", &P::zones, &P::zone_count));
   }
 };
 
@@ -99,7 +95,7 @@ struct PathPoint {
   double y_m = 0.0;  // [m] [world]
 
   static constexpr auto fields() noexcept {
-    return std::tuple{field("x_m", &PathPoint::x_m), field("y_m", &PathPoint::y_m)};
+    return field_list(field("x_m", &PathPoint::x_m), field("y_m", &PathPoint::y_m));
   }
 };
 
@@ -108,8 +104,8 @@ struct PathPixel {
   std::int16_t row = 0;     // [px] [0, 499]
 
   static constexpr auto fields() noexcept {
-    return std::tuple{field("column", &PathPixel::column).within(0, 865),
-                      field("row", &PathPixel::row).within(0, 499)};
+    return field_list(field("column", &PathPixel::column).within(0, 865),
+                      field("row", &PathPixel::row).within(0, 499));
   }
 };
 
@@ -141,21 +137,15 @@ struct SonarPath {
 
   static constexpr auto fields() noexcept {
     using P = SonarPath;
-    return std::tuple{field("request", &P::request),
-                      field("frame", &P::frame),
-                      field("captured", &P::captured),
-                      field("range_m", &P::range_m).within(0.0, 350.0),
-                      field("reason", &P::reason),
-                      field("cost_10_14", &P::cost_10_14),
-                      field("expansions", &P::expansions),
-                      field("length_m", &P::length_m).within(0.0, 1e9),
-                      field("narrow", &P::narrow),
-                      field("sides_changed", &P::sides_changed),
-                      field("point_count", &P::point_count),
-                      field("points", &P::points, &P::point_count),
-                      measured_field("plan_time_ns", &P::plan_time_ns),
-                      field("pixel_count", &P::pixel_count),
-                      field("pixels", &P::pixels, &P::pixel_count)};
+    return field_list(
+        field("request", &P::request), field("frame", &P::frame), field("captured", &P::captured),
+        field("range_m", &P::range_m).within(0.0, 350.0), field("reason", &P::reason),
+        field("cost_10_14", &P::cost_10_14), field("expansions", &P::expansions),
+        field("length_m", &P::length_m).within(0.0, 1e9), field("narrow", &P::narrow),
+        field("sides_changed", &P::sides_changed), field("point_count", &P::point_count),
+        field("points", &P::points, &P::point_count),
+        measured_field("plan_time_ns", &P::plan_time_ns), field("pixel_count", &P::pixel_count),
+        field("pixels", &P::pixels, &P::pixel_count));
   }
 };
 

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <tuple>
 #include <type_traits>
 
 #include "mid_level/base/time.h"
@@ -98,8 +97,8 @@ template <class M, class F>
 
 template <HasFields M>
 [[nodiscard]] bool sane(const M& message) noexcept {
-  const bool each = std::apply(
-      [&](const auto&... f) { return (detail::sane_field(message, f) && ...); }, M::fields());
+  const bool each =
+      M::fields()([&](const auto&... f) { return (detail::sane_field(message, f) && ...); });
   if constexpr (requires { message.fits(); }) {
     return each && message.fits();
   } else {

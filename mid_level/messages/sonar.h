@@ -35,8 +35,8 @@ struct ProfilePoint {
 
   static constexpr auto fields() noexcept {
     using P = ProfilePoint;
-    return std::tuple{field("range_m", &P::range_m).within(0.0, kMaxSonarRange_m),
-                      field("intensity", &P::intensity)};
+    return field_list(field("range_m", &P::range_m).within(0.0, kMaxSonarRange_m),
+                      field("intensity", &P::intensity));
   }
 };
 
@@ -99,20 +99,17 @@ struct SonarPing {
 
   static constexpr auto fields() noexcept {
     using P = SonarPing;
-    return std::tuple{
-        field("number", &P::number),
-        field("captured", &P::captured),
+    return field_list(
+        field("number", &P::number), field("captured", &P::captured),
         field("range_m", &P::range_m).within(0.01, kMaxSonarRange_m),
         field("sector_rad", &P::sector_rad).within(1e-3, kHalfTurn_rad),
         field("first_bearing_rad", &P::first_bearing_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
         field("beam_step_rad", &P::beam_step_rad).within(1e-6, kHalfTurn_rad),
-        field("kind", &P::kind),
-        field("beams", &P::beams).within(1, kMaxBeams),
+        field("kind", &P::kind), field("beams", &P::beams).within(1, kMaxBeams),
         field("bins", &P::bins).within(0, kMaxBins),
         field("point_count", &P::point_count).within(0, kMaxBeams),
-        field("echo_count", &P::echo_count),
-        field("points", &P::points, &P::point_count),
-        field("echo", &P::echo, &P::echo_count)};
+        field("echo_count", &P::echo_count), field("points", &P::points, &P::point_count),
+        field("echo", &P::echo, &P::echo_count));
   }
 };
 
@@ -134,12 +131,10 @@ struct SonarObstacles {
 
   static constexpr auto fields() noexcept {
     using O = SonarObstacles;
-    return std::tuple{field("frame", &O::frame),
-                      field("captured", &O::captured),
+    return field_list(field("frame", &O::frame), field("captured", &O::captured),
                       field("range_m", &O::range_m).within(0.0, kMaxSonarRange_m),
-                      field("dropped", &O::dropped),
-                      field("count", &O::count),
-                      field("obstacles", &O::obstacles, &O::count)};
+                      field("dropped", &O::dropped), field("count", &O::count),
+                      field("obstacles", &O::obstacles, &O::count));
   }
 };
 

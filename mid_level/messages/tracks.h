@@ -40,8 +40,7 @@ struct Track {
 
   static constexpr auto fields() noexcept {
     using T = Track;
-    return std::tuple{field("id", &T::id),
-                      field("last_seen", &T::last_seen),
+    return field_list(field("id", &T::id), field("last_seen", &T::last_seen),
                       field("shape", &T::shape),
                       field("velocity_x_m_s", &T::velocity_x_m_s).within(-1e3, 1e3),
                       field("velocity_y_m_s", &T::velocity_y_m_s).within(-1e3, 1e3),
@@ -50,7 +49,7 @@ struct Track {
                       field("place_yy_m2", &T::place_yy_m2).within(0.0, 1e9),
                       field("velocity_xx_m2_s2", &T::velocity_xx_m2_s2).within(0.0, 1e9),
                       field("velocity_xy_m2_s2", &T::velocity_xy_m2_s2),
-                      field("velocity_yy_m2_s2", &T::velocity_yy_m2_s2).within(0.0, 1e9)};
+                      field("velocity_yy_m2_s2", &T::velocity_yy_m2_s2).within(0.0, 1e9));
   }
 };
 
@@ -70,9 +69,9 @@ struct Tracks {
 
   static constexpr auto fields() noexcept {
     using T = Tracks;
-    return std::tuple{field("frame", &T::frame), field("captured", &T::captured),
+    return field_list(field("frame", &T::frame), field("captured", &T::captured),
                       field("dropped", &T::dropped), field("count", &T::count),
-                      field("tracks", &T::tracks, &T::count)};
+                      field("tracks", &T::tracks, &T::count));
   }
 };
 

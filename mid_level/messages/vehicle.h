@@ -22,9 +22,9 @@ struct Attitude {
 
   static constexpr auto fields() noexcept {
     using A = Attitude;
-    return std::tuple{field("measured", &A::measured),
+    return field_list(field("measured", &A::measured),
                       field("heading_rad", &A::heading_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
-                      field("yaw_rate_rad_s", &A::yaw_rate_rad_s).within(-100.0, 100.0)};
+                      field("yaw_rate_rad_s", &A::yaw_rate_rad_s).within(-100.0, 100.0));
   }
 };
 
@@ -66,17 +66,14 @@ struct PositionFix {
 
   static constexpr auto fields() noexcept {
     using P = PositionFix;
-    return std::tuple{field("measured", &P::measured),
+    return field_list(field("measured", &P::measured),
                       field("latitude_deg", &P::latitude_deg).within(-90.0, 90.0),
                       field("longitude_deg", &P::longitude_deg).within(-180.0, 180.0),
-                      field("sigma_m", &P::sigma_m).within(0.0, 1e5),
-                      field("quality", &P::quality),
-                      field("source", &P::source),
-                      field("utc_ns", &P::utc_ns).within(0.0, 4e18),
+                      field("sigma_m", &P::sigma_m).within(0.0, 1e5), field("quality", &P::quality),
+                      field("source", &P::source), field("utc_ns", &P::utc_ns).within(0.0, 4e18),
                       field("speed_m_s", &P::speed_m_s).within(0.0, 1000.0),
                       field("course_rad", &P::course_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
-                      field("has_speed", &P::has_speed),
-                      field("has_course", &P::has_course)};
+                      field("has_speed", &P::has_speed), field("has_course", &P::has_course));
   }
 };
 
@@ -138,9 +135,7 @@ struct VehicleState {
 
   static constexpr auto fields() noexcept {
     using V = VehicleState;
-    return std::tuple{field("valid_at", &V::valid_at),
-                      field("x_m", &V::x_m),
-                      field("y_m", &V::y_m),
+    return field_list(field("valid_at", &V::valid_at), field("x_m", &V::x_m), field("y_m", &V::y_m),
                       field("heading_rad", &V::heading_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
                       field("surge_m_s", &V::surge_m_s).within(-1e3, 1e3),
                       field("sway_m_s", &V::sway_m_s).within(-1e3, 1e3),
@@ -155,9 +150,8 @@ struct VehicleState {
                       field("current_xy_m2_s2", &V::current_xy_m2_s2),
                       field("current_yy_m2_s2", &V::current_yy_m2_s2).within(0.0, 1e6),
                       field("odometry_x_m", &V::odometry_x_m),
-                      field("odometry_y_m", &V::odometry_y_m),
-                      field("trust", &V::trust),
-                      field("fix_measured", &V::fix_measured)};
+                      field("odometry_y_m", &V::odometry_y_m), field("trust", &V::trust),
+                      field("fix_measured", &V::fix_measured));
   }
 };
 
@@ -186,20 +180,14 @@ struct EstimatorMemory {
 
   static constexpr auto fields() noexcept {
     using E = EstimatorMemory;
-    return std::tuple{field("at", &E::at),
-                      field("x_m", &E::x_m),
-                      field("y_m", &E::y_m),
-                      field("mean", &E::mean),
-                      field("covariance", &E::covariance),
-                      field("surge_m_s", &E::surge_m_s).within(-1e3, 1e3),
-                      field("odometry_x_m", &E::odometry_x_m),
-                      field("odometry_y_m", &E::odometry_y_m),
-                      field("way_m", &E::way_m).within(0.0, 1e9),
-                      field("fix_last", &E::fix_last),
-                      field("fix_believed", &E::fix_believed),
-                      field("fix_sigma_m", &E::fix_sigma_m).within(0.0, 1e6),
-                      field("fixes_believed", &E::fixes_believed),
-                      field("has_filter", &E::has_filter)};
+    return field_list(
+        field("at", &E::at), field("x_m", &E::x_m), field("y_m", &E::y_m), field("mean", &E::mean),
+        field("covariance", &E::covariance), field("surge_m_s", &E::surge_m_s).within(-1e3, 1e3),
+        field("odometry_x_m", &E::odometry_x_m), field("odometry_y_m", &E::odometry_y_m),
+        field("way_m", &E::way_m).within(0.0, 1e9), field("fix_last", &E::fix_last),
+        field("fix_believed", &E::fix_believed),
+        field("fix_sigma_m", &E::fix_sigma_m).within(0.0, 1e6),
+        field("fixes_believed", &E::fixes_believed), field("has_filter", &E::has_filter));
   }
 };
 
@@ -226,21 +214,17 @@ struct WorldTruth {
 
   static constexpr auto fields() noexcept {
     using W = WorldTruth;
-    return std::tuple{
-        field("scenario_time_s", &W::scenario_time_s),
-        field("x_m", &W::x_m),
-        field("y_m", &W::y_m),
+    return field_list(
+        field("scenario_time_s", &W::scenario_time_s), field("x_m", &W::x_m), field("y_m", &W::y_m),
         field("heading_rad", &W::heading_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
-        field("surge_m_s", &W::surge_m_s),
-        field("sway_m_s", &W::sway_m_s),
+        field("surge_m_s", &W::surge_m_s), field("sway_m_s", &W::sway_m_s),
         field("yaw_rate_rad_s", &W::yaw_rate_rad_s),
         field("inoffensive_distance_m", &W::inoffensive_distance_m).or_infinite(),
         field("hull_clearance_m", &W::hull_clearance_m).or_infinite(),
         field("least_inoffensive_distance_m", &W::least_inoffensive_distance_m).or_infinite(),
         field("least_inoffensive_distance_at_s", &W::least_inoffensive_distance_at_s),
         field("least_hull_clearance_m", &W::least_hull_clearance_m).or_infinite(),
-        field("thrust_left", &W::thrust_left),
-        field("thrust_right", &W::thrust_right)};
+        field("thrust_left", &W::thrust_left), field("thrust_right", &W::thrust_right));
   }
 };
 

@@ -4,12 +4,12 @@
 // so that whoever reads it needs no header of ours. Pure functions; any thread.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <memory>
 #include <span>
 #include <string>
-#include <tuple>
 #include <type_traits>
 
 #include "mid_level/base/check.h"
@@ -46,7 +46,7 @@ void put_raw(const T& value, std::byte* to) noexcept {
         put_raw(value.*(f.member), place);
       }
     };
-    std::apply([&](const auto&... f) { (put_field(f), ...); }, T::fields());
+    T::fields()([&](const auto&... f) { (put_field(f), ...); });
   } else if constexpr (kind_of<T>() == FieldKind::kArray) {
     put_raw_elements(value, value.size(), to);
   } else {
@@ -97,7 +97,7 @@ void put_layout(std::string& text) {
   if constexpr (HasFields<T>) {
     text += R"(,"fields":[)";
     const auto message = std::make_unique<T>();
-    std::apply([&](const auto&... f) { (put_field_layout(text, *message, f), ...); }, T::fields());
+    T::fields()([&](const auto&... f) { (put_field_layout(text, *message, f), ...); });
     text += "]";
   } else if constexpr (std::is_enum_v<T>) {
     text += R"(,"names":[)";

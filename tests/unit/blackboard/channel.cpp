@@ -14,7 +14,7 @@ namespace {
 // Large enough to be torn: whole only if every word is the same.
 struct Block {
   std::array<std::uint64_t, 512> words{};
-  static constexpr auto fields() noexcept { return std::tuple{field("words", &Block::words)}; }
+  static constexpr auto fields() noexcept { return field_list(field("words", &Block::words)); }
 
   static Block of(std::uint64_t value) {
     Block block;
@@ -36,7 +36,7 @@ struct Tail {
   std::array<std::uint8_t, 100> bytes{};
   [[nodiscard]] std::size_t used_bytes() const noexcept { return offsetof(Tail, bytes) + count; }
   static constexpr auto fields() noexcept {
-    return std::tuple{field("count", &Tail::count), field("bytes", &Tail::bytes, &Tail::count)};
+    return field_list(field("count", &Tail::count), field("bytes", &Tail::bytes, &Tail::count));
   }
 };
 

@@ -21,8 +21,8 @@ struct Value {
     return offsetof(Value, numbers) + count * sizeof(std::uint64_t);
   }
   static constexpr auto fields() noexcept {
-    return std::tuple{field("count", &Value::count),
-                      field("numbers", &Value::numbers, &Value::count)};
+    return field_list(field("count", &Value::count),
+                      field("numbers", &Value::numbers, &Value::count));
   }
 };
 using ValueWriter = Writer<Value, Atomic>;

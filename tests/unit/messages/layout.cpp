@@ -29,7 +29,7 @@ struct Point {
   double x_m = 0.0;
   double y_m = 0.0;
   static constexpr auto fields() noexcept {
-    return std::tuple{field("x_m", &Point::x_m), field("y_m", &Point::y_m)};
+    return field_list(field("x_m", &Point::x_m), field("y_m", &Point::y_m));
   }
 };
 
@@ -38,7 +38,7 @@ struct SwappedPoint {
   double y_m = 0.0;
   double x_m = 0.0;
   static constexpr auto fields() noexcept {
-    return std::tuple{field("x_m", &SwappedPoint::x_m), field("y_m", &SwappedPoint::y_m)};
+    return field_list(field("x_m", &SwappedPoint::x_m), field("y_m", &SwappedPoint::y_m));
   }
 };
 
@@ -49,20 +49,20 @@ struct Counted {
   std::array<Element, kSize> elements{};
   static constexpr auto fields() noexcept {
     using C = Counted;
-    return std::tuple{field("count", &C::count), field("elements", &C::elements, &C::count)};
+    return field_list(field("count", &C::count), field("elements", &C::elements, &C::count));
   }
 };
 
 template <class T>
 struct Single {
   T value{};
-  static constexpr auto fields() noexcept { return std::tuple{field("value", &Single::value)}; }
+  static constexpr auto fields() noexcept { return field_list(field("value", &Single::value)); }
 };
 
 struct SingleInRange {
   std::int32_t value = 0;
   static constexpr auto fields() noexcept {
-    return std::tuple{field("value", &SingleInRange::value).within(-100, 100)};
+    return field_list(field("value", &SingleInRange::value).within(-100, 100));
   }
 };
 

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <memory>
 #include <random>
-#include <tuple>
 #include <type_traits>
 
 #include "mid_level/blackboard/blackboard.h"
@@ -32,7 +31,7 @@ class RandomMessages {
   template <class T>
   void fill(T& value, const Bounds& bounds) {
     if constexpr (HasFields<T>) {
-      std::apply([&](const auto&... f) { (fill_field(value, f), ...); }, T::fields());
+      T::fields()([&](const auto&... f) { (fill_field(value, f), ...); });
       mend(value);
     } else if constexpr (std::is_same_v<T, Time> || std::is_same_v<T, Duration>) {
       value = T{Duration{static_cast<std::int64_t>(random_() >> 4)}};

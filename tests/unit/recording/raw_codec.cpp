@@ -35,7 +35,7 @@ struct Inner {
   std::uint8_t kind = 0;
   double x_m = 0.0;
   static constexpr auto fields() noexcept {
-    return std::tuple{field("kind", &Inner::kind), field("x_m", &Inner::x_m)};
+    return field_list(field("kind", &Inner::kind), field("x_m", &Inner::x_m));
   }
 };
 
@@ -47,8 +47,8 @@ struct Outer {
   PathReason reason = PathReason::kFound;
   static constexpr auto fields() noexcept {
     using O = Outer;
-    return std::tuple{field("flag", &O::flag), field("at", &O::at), field("count", &O::count),
-                      field("parts", &O::parts, &O::count), field("reason", &O::reason)};
+    return field_list(field("flag", &O::flag), field("at", &O::at), field("count", &O::count),
+                      field("parts", &O::parts, &O::count), field("reason", &O::reason));
   }
 };
 
