@@ -178,6 +178,13 @@ class Writer {
     head_->newest.store(sequence, std::memory_order_release);
   }
 
+  // The next publication has the number after this one, which must not be below the last: numbers
+  // of a recording are those that they were.
+  void go_on_after(std::uint64_t sequence) noexcept {
+    LODESMAN_CHECK(sequence >= sequence_ && sequence < kLastSequence);
+    sequence_ = sequence;
+  }
+
   // Of the last publication, or of the ghost that its predecessor left.
   [[nodiscard]] std::uint64_t sequence() const noexcept { return sequence_; }
 
@@ -203,14 +210,60 @@ class Writer {
   std::size_t bell_count_ = 0;
 };
 
+// How much of its channel a reader sees. By itself it sees all that there is. A runner that has its
+// task look before each step shows it the channel as it was then, to the end of the step: what
+// comes meanwhile is the next step's, and so the numbers that it looked at say all that it saw.
+template <template <class> class Atomic = std::atomic>
+class ChannelLook {
+ public:
+  explicit ChannelLook(const Atomic<std::uint64_t>& newest) noexcept : newest_{&newest} {}
+
+  // From now on it sees what there is now.
+  void look() noexcept { look_up_to(announced()); }
+  // The same, of a number that was seen before.
+  void look_up_to(std::uint64_t sequence) noexcept {
+    seen_ = sequence;
+    whole_ = true;
+  }
+  // The newest that it can see; 0 as long as there was none, or where the head is wrong.
+  [[nodiscard]] std::uint64_t newest_sequence() const noexcept {
+    return seen_ == kAll ? announced() : seen_;
+  }
+  // Whether since it looked all that it asked for was in its place.
+  [[nodiscard]] bool is_whole() const noexcept { return whole_; }
+  // Where its channel begins.
+  [[nodiscard]] const void* channel() const noexcept { return newest_; }
+
+ protected:
+  // What it was to see is written over: it sees what there is now, rather than nothing.
+  void look_again() noexcept {
+    whole_ = false;
+    seen_ = seen_ == kAll ? kAll : announced();
+  }
+
+ private:
+  static constexpr std::uint64_t kAll = ~std::uint64_t{0};
+
+  [[nodiscard]] std::uint64_t announced() const noexcept {
+    const std::uint64_t newest = newest_->load(std::memory_order_acquire);
+    return newest <= kLastSequence ? newest : 0;
+  }
+
+  const Atomic<std::uint64_t>* newest_;
+  std::uint64_t seen_ = kAll;
+  bool whole_ = true;
+};
+
 // A reader with a copy of its own: what it hands out stays valid until its next call, and is sane.
 // What is published and is not sane is passed over, as if it had never been published, and counted.
 template <Wire T, template <class> class Atomic = std::atomic>
-class Reader {
+class Reader : public ChannelLook<Atomic> {
  public:
+  using ChannelLook<Atomic>::newest_sequence;
+
   template <std::size_t kDepth>
   explicit Reader(const Channel<T, kDepth, Atomic>& channel)
-      : head_{&channel.head},
+      : ChannelLook<Atomic>{channel.head.newest},
         slots_{channel.slots.data()},
         count_{kDepth},
         held_{std::make_unique<Stamped<T>>()},
@@ -230,6 +283,7 @@ class Reader {
       if (taken != Taken::kNotWhole) {
         break;
       }
+      this->look_again();
     }
     return held_->sequence == 0 ? nullptr : held_.get();
   }
@@ -270,6 +324,7 @@ class Reader {
         return held_.get();
       }
       // Its slot is being written over, perhaps for ever by a writer that is dead: it is gone.
+      this->look_again();
       ++wanted;
     }
     return nullptr;
@@ -284,11 +339,6 @@ class Reader {
     return held || take(sequence) == Taken::kWhole ? held_.get() : nullptr;
   }
 
-  // 0 as long as there was none, or where the head is wrong.
-  [[nodiscard]] std::uint64_t newest_sequence() const noexcept {
-    const std::uint64_t newest = head_->newest.load(std::memory_order_acquire);
-    return newest <= kLastSequence ? newest : 0;
-  }
   [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
   // How many values were passed over because they were not sane.
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
@@ -362,7 +412,6 @@ class Reader {
     return Taken::kWhole;
   }
 
-  const ChannelHead<T, Atomic>* head_;
   const ChannelSlot<T, Atomic>* slots_;
   std::size_t count_;
   std::unique_ptr<Stamped<T>> held_;
