@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/operator/replay/recorded_setup.h"
 
+#include <functional>
 #include <optional>
 #include <tuple>
 #include <type_traits>
@@ -39,7 +40,7 @@ struct Notes {
   TunablesChange change;
   const auto add = [&](const auto& f) {
     if constexpr (std::is_same_v<decltype(f.member), double Tunables::*>) {
-      if (recorded.*(f.member) != set.*(f.member)) {
+      if (std::not_equal_to<>{}(recorded.*(f.member), set.*(f.member))) {
         change.emplace_back(f.member, set.*(f.member));
       }
     }
