@@ -22,21 +22,37 @@ constexpr std::uint32_t kInTheMiddle = 400;  // a number that each channel in qu
 TEST_CASE("replay: one parameter that is changed shows in the first decision that goes by it",
           "[system]") {
   const Scratch scratch{"replay"};
-  const fs::path file = sailed(scratch, "paper-static", "default");
+  const fs::path paper = sailed(scratch, "paper-static", "paper");
 
-  // One that may be tuned under way, and stands in the recording as it was.
-  const ReplayResult gain = replayed(file, {"control.heading_gain_per_deg=7.0"});
+  // One that may be tuned under way, and stands in the recording as it was: control.
+  const ReplayResult gain = replayed(paper, {"control.heading_gain_per_deg=7.0"});
   REQUIRE(gain.first() != nullptr);
-  CHECK(gain.first()->task == TaskId::kController);
   CHECK(gain.first()->channel == "helm_command");
   CHECK(gain.first()->field.path == "head_ref");
   CHECK(gain.differing() == of(gain, TaskId::kController).differing);
 
+  // Planning, and nothing before or after it.
+  const ReplayResult interval = replayed(paper, {"planner.waypoint_interval_m=2.0"});
+  REQUIRE(interval.first() != nullptr);
+  CHECK(interval.first()->channel == "plan");
+  CHECK(interval.first()->field.path.starts_with("waypoint"));
+  CHECK(interval.differing() == of(interval, TaskId::kPlanner).differing);
+
+  // Perception: the zones that are made for what is seen.
+  const fs::path file = sailed(scratch, "paper-static", "default");
   const ReplayResult zones = replayed(file, {"zones.hull_radius_m=1.7"});
   REQUIRE(zones.first() != nullptr);
-  CHECK(zones.first()->task == TaskId::kPlanner);
+  CHECK(zones.first()->channel == "sonar_obstacles");
+  CHECK(zones.first()->sequence == 1);
+  CHECK(zones.first()->field.path == "obstacles[0].protection_first_m");
   CHECK(of(zones, TaskId::kController).differing == 0);
   CHECK(of(zones, TaskId::kEstimator).differing == 0);
+
+  // Estimation.
+  const ReplayResult current = replayed(file, {"estimator.current_time_s=0.0"});
+  REQUIRE(current.first() != nullptr);
+  CHECK(current.first()->channel == "vehicle_state");
+  CHECK(current.differing() == of(current, TaskId::kEstimator).differing);
 
   // Of what no decision goes by, none differs.
   check_that_none_differs(replayed(file, {"boat.name=another"}));

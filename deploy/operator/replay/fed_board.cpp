@@ -54,6 +54,8 @@ FedBoard::FedBoard(const TunablesChange& change)
 
 FedBoard::~FedBoard() = default;
 
+void FedBoard::release(std::uint64_t channel) { feeders_[channel].reset(); }
+
 FedBoard::Feeder& FedBoard::feeder(std::uint64_t channel) {
   std::uint64_t place = 0;
   for_each_channel(*board_, [&](const ChannelInfo& info, auto& each) {

@@ -30,7 +30,7 @@ class FedBoard {
   // the ring would hold now.
   bool feed_up_to(std::uint64_t channel, std::uint64_t sequence, const ChannelLog& log);
   // The channel can have another writer.
-  void release(std::uint64_t channel) { feeders_[channel].reset(); }
+  void release(std::uint64_t channel);
 
  private:
   class Feeder;
