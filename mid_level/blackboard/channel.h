@@ -20,6 +20,7 @@
 #include "mid_level/base/startup_error.h"
 #include "mid_level/base/time.h"
 #include "mid_level/blackboard/bell.h"
+#include "mid_level/blackboard/channel_look.h"
 #include "mid_level/messages/fields.h"
 #include "mid_level/messages/sane.h"
 
@@ -41,10 +42,6 @@ struct Stamped {
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free &&
               std::atomic<std::int64_t>::is_always_lock_free &&
               std::atomic<std::uint32_t>::is_always_lock_free);
-
-// Not reached by counting: a head that announces more is wrong. Below it a number and its double
-// never wrap, so that one value after another comes to an end.
-inline constexpr std::uint64_t kLastSequence = std::uint64_t{1} << 62U;
 
 // Which program writes a channel; stored in the channel as its writer's claim.
 enum class Role : std::uint32_t { kNobody = 0, kLow = 1, kHigh = 2 };
@@ -208,50 +205,6 @@ class Writer {
   std::uint64_t sequence_ = 0;
   std::array<Bell<Atomic>*, kMaxWoken> bells_{};
   std::size_t bell_count_ = 0;
-};
-
-// How much of its channel a reader sees. By itself it sees all that there is. A runner that has its
-// task look before each step shows it the channel as it was then, to the end of the step: what
-// comes meanwhile is the next step's, and so the numbers that it looked at say all that it saw.
-template <template <class> class Atomic = std::atomic>
-class ChannelLook {
- public:
-  explicit ChannelLook(const Atomic<std::uint64_t>& newest) noexcept : newest_{&newest} {}
-
-  // From now on it sees what there is now.
-  void look() noexcept { look_up_to(announced()); }
-  // The same, of a number that was seen before.
-  void look_up_to(std::uint64_t sequence) noexcept {
-    seen_ = sequence;
-    whole_ = true;
-  }
-  // The newest that it can see; 0 as long as there was none, or where the head is wrong.
-  [[nodiscard]] std::uint64_t newest_sequence() const noexcept {
-    return seen_ == kAll ? announced() : seen_;
-  }
-  // Whether since it looked all that it asked for was in its place.
-  [[nodiscard]] bool is_whole() const noexcept { return whole_; }
-  // Where its channel begins.
-  [[nodiscard]] const void* channel() const noexcept { return newest_; }
-
- protected:
-  // What it was to see is written over: it sees what there is now, rather than nothing.
-  void look_again() noexcept {
-    whole_ = false;
-    seen_ = seen_ == kAll ? kAll : announced();
-  }
-
- private:
-  static constexpr std::uint64_t kAll = ~std::uint64_t{0};
-
-  [[nodiscard]] std::uint64_t announced() const noexcept {
-    const std::uint64_t newest = newest_->load(std::memory_order_acquire);
-    return newest <= kLastSequence ? newest : 0;
-  }
-
-  const Atomic<std::uint64_t>* newest_;
-  std::uint64_t seen_ = kAll;
-  bool whole_ = true;
 };
 
 // A reader with a copy of its own: what it hands out stays valid until its next call, and is sane.

@@ -31,7 +31,7 @@ struct StepInputs {
   std::uint64_t step = 0;  // [-] counted from 1; 0: made, not yet stepped
   // Nothing that it could see was written over, or half written, when it looked.
   bool whole = true;
-  std::uint64_t count = 0;
+  std::uint64_t count = 0;                // [-] of its readers
   std::array<SeenInput, kMost> inputs{};  // one a reader, in the task's order
 
   [[nodiscard]] std::size_t used_bytes() const noexcept {

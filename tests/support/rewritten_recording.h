@@ -27,6 +27,7 @@ using Rewrite = std::function<bool(RewrittenMessage&)>;
 
 inline void rewrite_recording(const std::filesystem::path& from, const std::filesystem::path& to,
                               const Rewrite& rewrite) {
+  std::filesystem::remove(to);
   McapFileSource source{from};
   McapReader reader{source};
   DiskFile file{to};

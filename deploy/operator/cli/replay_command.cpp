@@ -2,6 +2,7 @@
 #include "deploy/operator/cli/replay_command.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -172,7 +173,7 @@ void tell_what_is_not_judged(const ReplayResult& result) {
 
 [[nodiscard]] int run_replay(const ReplayCommandOptions& options) {
   catch_stop_signals();
-  const bool shows = !options.quiet && !options.json;
+  const bool shows = !options.quiet && !options.json && isatty(STDERR_FILENO) != 0;
   const ReplayResult result =
       replay({options.files, options.sets, stop_caught, [shows](Duration done) {
                 if (shows) {

@@ -26,7 +26,12 @@ class OutputOf final : public JudgedOutput {
     const Stamped<T>* replayed = reader_.next();
     const Recorded* recorded = taken_at(stepped, log, output);
     while (replayed != nullptr || recorded != nullptr) {
-      compare(recorded, replayed, stepped, output);
+      if (recorded == nullptr && may_be_missing(log)) {
+        ++output.missing;
+        ++taken_;
+      } else {
+        compare(recorded, replayed, stepped, output);
+      }
       replayed = replayed != nullptr ? reader_.next() : nullptr;
       recorded = recorded != nullptr ? taken_at(stepped, log, output) : nullptr;
     }
@@ -40,7 +45,8 @@ class OutputOf final : public JudgedOutput {
   void pass_over_before(Time stepped, const ChannelLog& log, StepOutput& output) {
     for (const Recorded* next = log.after(taken_); next != nullptr && next->stamp < stepped;
          next = log.after(taken_)) {
-      output.outside += taken_ == 0 ? 1 : next->sequence - taken_;
+      note_missing_before(*next, output);
+      ++output.outside;
       taken_ = next->sequence;
     }
   }
@@ -50,11 +56,22 @@ class OutputOf final : public JudgedOutput {
     if (next == nullptr || next->stamp != stepped) {
       return nullptr;
     }
-    // Numbers between are in no file.
-    output.outside += taken_ == 0 ? 0 : next->sequence - taken_ - 1;
+    note_missing_before(*next, output);
     taken_ = next->sequence;
     ++output.recorded;
     return next;
+  }
+
+  // Numbers between are in no file.
+  void note_missing_before(const Recorded& next, StepOutput& output) const noexcept {
+    output.missing += taken_ == 0 ? 0 : next.sequence - taken_ - 1;
+  }
+
+  // Whether what is not recorded here may have been published nevertheless: a number is missing, or
+  // the file ends.
+  [[nodiscard]] bool may_be_missing(const ChannelLog& log) const noexcept {
+    const Recorded* next = log.after(taken_);
+    return next == nullptr ? log.newest() != 0 : taken_ != 0 && next->sequence > taken_ + 1;
   }
 
   void compare(const Recorded* recorded, const Stamped<T>* replayed, Time stepped,

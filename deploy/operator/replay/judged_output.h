@@ -17,6 +17,7 @@ namespace lodesman::cli {
 struct StepOutput {
   std::uint64_t recorded = 0;  // publications
   std::uint64_t outside = 0;   // recorded before this step, and after the one before it
+  std::uint64_t missing = 0;   // not in the recording
   std::vector<Difference> differences;
 };
 

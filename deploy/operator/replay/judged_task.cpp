@@ -146,6 +146,7 @@ void JudgedTask::judge(Time stepped) {
     each->judge(stepped, log_[each->channel()], output);
   }
   verdict_.not_judged[static_cast<std::size_t>(Doubt::kNoStep)] += output.outside;
+  verdict_.not_judged[static_cast<std::size_t>(Doubt::kGap)] += output.missing;
   std::uint64_t decisions = output.recorded;
   for (const Difference& difference : output.differences) {
     decisions += difference.kind == DifferenceKind::kPublished ? 1U : 0U;

@@ -277,7 +277,7 @@ TEST_CASE("channel: a reader that has looked sees nothing newer until it looks a
   CHECK(again.latest()->sequence == 1);
 }
 
-TEST_CASE("channel: what was to be seen and is written over gives way to what there is, and is told",
+TEST_CASE("channel: what was to be seen and is written over gives way to what there is",
           "[mid_level][blackboard]") {
   const auto channel = std::make_unique<Channel<Block, 2>>();
   Writer<Block> writer{*channel, Role::kLow, "blocks"};
