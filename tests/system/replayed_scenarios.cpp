@@ -5,21 +5,34 @@
 using namespace lodesman;
 using namespace lodesman::testing;
 
-TEST_CASE("replay: of every shipped scenario, in both profiles, no decision differs", "[system]") {
+namespace {
+
+// By then each has planned round what it meets; `tests/measure/replay.sh` replays whole voyages.
+constexpr double kFirst_s = 30.0;
+
+void check_shipped_scenarios(const std::string& profile) {
   const Scratch scratch{"replay"};
-  const fs::path shipped = share_directory() / "hal_sim" / "scenarios";
   int runs = 0;
-  for (const auto& entry : fs::directory_iterator{shipped}) {
-    for (const char* profile : {"default", "paper"}) {
-      const std::string name = entry.path().stem().string();
-      INFO(name << ", " << profile);
-      const fs::path file = sailed(scratch, name, profile);
-      check_that_none_differs(replayed(file));
-      fs::remove(file);
-      ++runs;
-    }
+  for (const auto& entry : fs::directory_iterator{share_directory() / "hal_sim" / "scenarios"}) {
+    const std::string name = entry.path().stem().string();
+    INFO(name);
+    const fs::path file = sailed(scratch, name, profile, {}, kFirst_s);
+    check_that_none_differs(replayed(file));
+    fs::remove(file);
+    ++runs;
   }
-  CHECK(runs >= 48);
+  CHECK(runs >= 24);
+}
+
+}  // namespace
+
+TEST_CASE("replay: of each shipped scenario in the default profile no decision differs",
+          "[system]") {
+  check_shipped_scenarios("default");
+}
+
+TEST_CASE("replay: of each shipped scenario in the paper profile no decision differs", "[system]") {
+  check_shipped_scenarios("paper");
 }
 
 TEST_CASE("replay: with threads' jitter, doubt about tracks and another position, none differs",
