@@ -50,6 +50,16 @@ namespace {
   return bare && !is_toml_word ? set.substr(0, equals + 1) + '"' + value + '"' : set;
 }
 
+void overlay(const std::vector<std::string>& sets, TomlDocument& configuration) {
+  for (const auto& set : sets) {
+    const auto equals = set.find('=');
+    if (equals == 0 || equals == std::string::npos || set.find('\n') != std::string::npos) {
+      throw StartupError("--set", 1, set, "must be SECTION.KEY=VALUE");
+    }
+    configuration.overlay(TomlDocument::from_text(as_toml(set, equals), "--set"));
+  }
+}
+
 [[nodiscard]] TomlDocument put_together(const std::string& profile, const CommonOptions& options) {
   TomlDocument configuration = TomlDocument::from_file(config_file("default.toml"));
   if (profile != "default") {
@@ -58,13 +68,7 @@ namespace {
   for (const auto& file : options.config_files) {
     configuration.overlay(TomlDocument::from_file(file));
   }
-  for (const auto& set : options.sets) {
-    const auto equals = set.find('=');
-    if (equals == 0 || equals == std::string::npos || set.find('\n') != std::string::npos) {
-      throw StartupError("--set", 1, set, "must be SECTION.KEY=VALUE");
-    }
-    configuration.overlay(TomlDocument::from_text(as_toml(set, equals), "--set"));
-  }
+  overlay(options.sets, configuration);
   return configuration;
 }
 
@@ -138,8 +142,11 @@ BoatConfig load_configuration(const std::string& profile, const CommonOptions& o
   return read(put_together(profile, options));
 }
 
-BoatConfig configuration_of(const std::string& text, const std::string& name) {
-  return read(TomlDocument::from_text(text, name));
+BoatConfig configuration_of(const std::string& text, const std::string& name,
+                            const std::vector<std::string>& sets) {
+  TomlDocument configuration = TomlDocument::from_text(text, name);
+  overlay(sets, configuration);
+  return read(std::move(configuration));
 }
 
 }  // namespace lodesman

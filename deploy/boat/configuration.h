@@ -84,6 +84,8 @@ struct BoatConfig {
                                             const CommonOptions& options);
 
 // As to_text() wrote it, with every key; `name` stands in the place of a file's in refusals.
-[[nodiscard]] BoatConfig configuration_of(const std::string& text, const std::string& name);
+// `sets`: single values to lay over it, as of a command line.
+[[nodiscard]] BoatConfig configuration_of(const std::string& text, const std::string& name,
+                                          const std::vector<std::string>& sets = {});
 
 }  // namespace lodesman

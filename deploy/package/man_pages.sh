@@ -29,7 +29,7 @@ page "$bench" lodesman-bench lodesman-bench
 page "$bench" lodesman-devices lodesman-devices
 for word in $("$programs/lodesman" --help | awk '/^Subcommands:/ { on = 1; next } on && /^  [a-z]/ { print $1 }'); do
   case $word in
-    sim | hil | segment | plot) page "$bench" "lodesman-$word" lodesman "$word" ;;
+    sim | hil | segment | plot | replay) page "$bench" "lodesman-$word" lodesman "$word" ;;
     *) page "$runtime" "lodesman-$word" lodesman "$word" ;;
   esac
 done

@@ -4,7 +4,9 @@
 // missing. Stepped by its runner's thread.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 
 #include "high_level/guidance/steering.h"
 #include "high_level/guidance/waypoints.h"
@@ -27,6 +29,7 @@ class ControllerTask final : public Task {
   [[nodiscard]] std::uint64_t refused() const noexcept override {
     return refused_by(attitude_, vehicle_state_, mission_status_, plan_, tunables_);
   }
+  [[nodiscard]] std::span<ChannelLook<>* const> inputs() noexcept override { return inputs_; }
 
  private:
   void take_tunables() noexcept;
@@ -49,6 +52,8 @@ class ControllerTask final : public Task {
   Reader<MissionStatus> mission_status_;
   Reader<Plan> plan_;
   Reader<Tunables> tunables_;
+  std::array<ChannelLook<>*, 5> inputs_{&tunables_, &attitude_, &vehicle_state_, &plan_,
+                                        &mission_status_};
   Writer<HelmCommand> commands_;
 };
 

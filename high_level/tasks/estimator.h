@@ -11,8 +11,10 @@
 // The filter coasts on while the heading is stale. What is longer than kLongestGap is not bridged.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "high_level/estimate/dead_reckoning.h"
 #include "high_level/estimate/drift.h"
@@ -48,6 +50,7 @@ class EstimatorTask final : public Task {
   [[nodiscard]] std::uint64_t refused() const noexcept override {
     return refused_by(attitude_, position_fix_, world_truth_, thrust_applied_);
   }
+  [[nodiscard]] std::span<ChannelLook<>* const> inputs() noexcept override { return inputs_; }
 
  private:
   // What is reckoned with, at its beginning.
@@ -87,6 +90,9 @@ class EstimatorTask final : public Task {
   Writer<WorldOrigin> origins_;
   Writer<EstimatorMemory> memories_;
   PastInputs past_;
+  std::array<ChannelLook<>*, 6> inputs_{
+      &attitude_,       &position_fix_,        &world_truth_,
+      &thrust_applied_, &past_.thrust_input(), &past_.attitude_input()};
   // What one that was here before remembered; empty once it was taken up, or too old.
   std::optional<EstimatorMemory> legacy_;
   Time reckoned_to_{};  // by the other sources; 0: not yet

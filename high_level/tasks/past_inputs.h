@@ -18,6 +18,10 @@ class PastInputs {
   explicit PastInputs(const Blackboard& board)
       : thrust_{board.thrust_applied}, attitude_{board.attitude} {}
 
+  // Its readers.
+  [[nodiscard]] ChannelLook<>& thrust_input() noexcept { return thrust_; }
+  [[nodiscard]] ChannelLook<>& attitude_input() noexcept { return attitude_; }
+
   struct Moment {
     Time at{};
     ThrustApplied applied{};  // up to then; neutral where nothing tells

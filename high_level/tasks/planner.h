@@ -2,7 +2,9 @@
 // The planner task: the mission and the paper's Fig. 1, step by step, and a watch over progress.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <span>
 
 #include "high_level/guidance/replanner.h"
 #include "high_level/mission/mission.h"
@@ -29,6 +31,7 @@ class PlannerTask final : public Task {
                       sonar_path_, attitude_, position_fix_, plan_, helm_, thrust_applied_,
                       thrust_status_);
   }
+  [[nodiscard]] std::span<ChannelLook<>* const> inputs() noexcept override { return inputs_; }
 
  private:
   // What is found of the program that was here before: looked at when made, taken up with the
@@ -90,6 +93,10 @@ class PlannerTask final : public Task {
   Reader<HelmCommand> helm_;
   Reader<ThrustApplied> thrust_applied_;
   Reader<ThrustStatus> thrust_status_;
+  std::array<ChannelLook<>*, 13> inputs_{
+      &definitions_, &orders_,         &link_,         &tunables_, &vehicle_state_,
+      &obstacles_,   &tracks_,         &sonar_path_,   &attitude_, &position_fix_,
+      &helm_,        &thrust_applied_, &thrust_status_};
   Writer<PathRequest> requests_;
   Writer<Plan> plans_;
   Writer<MissionStatus> statuses_;

@@ -4,8 +4,10 @@
 // Stepped by its runner's thread.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "drivers/hal/devices.h"
@@ -37,6 +39,7 @@ class DeltaTTask final : public Task {
   [[nodiscard]] std::uint64_t refused() const noexcept override {
     return device_.refused() + refused_by(vehicle_state_, mission_status_);
   }
+  [[nodiscard]] std::span<ChannelLook<>* const> inputs() noexcept override { return inputs_; }
 
  private:
   // Whether there is a new ping that can be believed.
@@ -58,6 +61,7 @@ class DeltaTTask final : public Task {
   Reader<VehicleState> every_state_;  // the same, one after the other
   PoseHistory poses_;
   Reader<MissionStatus> mission_status_;
+  std::array<ChannelLook<>*, 3> inputs_{&vehicle_state_, &every_state_, &mission_status_};
   Writer<SonarPing> pings_;
   Writer<SonarObstacles> obstacles_;
   Writer<Tracks> tracks_;

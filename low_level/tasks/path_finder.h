@@ -3,7 +3,9 @@
 // Stepped by its runner's thread.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <span>
 
 #include "low_level/path/path_finder.h"
 #include "low_level/path/world_path_finder.h"
@@ -18,6 +20,7 @@ class PathFinderTask final : public Task {
   [[nodiscard]] std::uint64_t refused() const noexcept override {
     return refused_by(requests_, obstacles_);
   }
+  [[nodiscard]] std::span<ChannelLook<>* const> inputs() noexcept override { return inputs_; }
 
  private:
   void find(const PathRequest& request) noexcept;
@@ -28,6 +31,7 @@ class PathFinderTask final : public Task {
   WorldPathFinder world_finder_;
   Reader<PathRequest> requests_;
   Reader<SonarObstacles> obstacles_;
+  std::array<ChannelLook<>*, 2> inputs_{&obstacles_, &requests_};
   Writer<SonarPath> paths_;
   std::uint64_t answered_ = 0;
   std::unique_ptr<SonarPath> path_ = std::make_unique<SonarPath>();

@@ -18,6 +18,7 @@
 #include "mid_level/messages/origin.h"
 #include "mid_level/messages/path.h"
 #include "mid_level/messages/sonar.h"
+#include "mid_level/messages/step_inputs.h"
 #include "mid_level/messages/tracks.h"
 #include "mid_level/messages/vehicle.h"
 
@@ -41,6 +42,22 @@ inline constexpr Duration kBatteryStatus = milliseconds{3000};
 inline constexpr Duration kDeviceHealth = milliseconds{3000};
 inline constexpr Duration kNoLimit{};
 }  // namespace max_age
+
+// What of each task is recorded that it can be stepped again by: those that decide from what is on
+// the blackboard alone.
+struct StepInputsInfo {
+  TaskId task;
+  const char* channel;
+  Role writer;
+};
+inline constexpr std::size_t kReplayedCount = 5;
+inline constexpr std::array<StepInputsInfo, kReplayedCount> kStepInputsInfo{{
+    {TaskId::kEstimator, "estimator_inputs", Role::kHigh},
+    {TaskId::kDeltaT, "delta_t_inputs", Role::kLow},
+    {TaskId::kPathFinder, "path_finder_inputs", Role::kLow},
+    {TaskId::kPlanner, "planner_inputs", Role::kHigh},
+    {TaskId::kController, "controller_inputs", Role::kHigh},
+}};
 
 struct Blackboard {
   Channel<WorldTruth, 256> world_truth;
@@ -70,6 +87,8 @@ struct Blackboard {
   Channel<BatteryStatus, 4> battery_status;
   std::array<Channel<DeviceHealth, 4>, kDeviceCount> device_health;
   std::array<Channel<TaskHealth, 2>, kTaskCount> task_health;
+  // So many that who comes a second late still has them from the first.
+  std::array<Channel<StepInputs, 256>, kReplayedCount> step_inputs;
   std::array<Bell<>, kTaskCount> bells;  // no channel: rung by writers, waited for by their tasks
 
   [[nodiscard]] Bell<>& bell_of(TaskId task) noexcept {
@@ -153,6 +172,11 @@ void for_each_channel(Board& board, Visit visit) {
     visit(ChannelInfo{to_string(task), high ? Role::kHigh : Role::kLow, to_string(task),
                       max_age::kNoLimit},
           board.task_health[i]);
+  }
+  for (std::size_t i = 0; i < kReplayedCount; ++i) {
+    const StepInputsInfo& info = kStepInputsInfo[i];
+    visit(ChannelInfo{info.channel, info.writer, to_string(info.task), max_age::kNoLimit},
+          board.step_inputs[i]);
   }
 }
 

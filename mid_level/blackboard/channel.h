@@ -20,6 +20,7 @@
 #include "mid_level/base/startup_error.h"
 #include "mid_level/base/time.h"
 #include "mid_level/blackboard/bell.h"
+#include "mid_level/blackboard/channel_look.h"
 #include "mid_level/messages/fields.h"
 #include "mid_level/messages/sane.h"
 
@@ -41,10 +42,6 @@ struct Stamped {
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free &&
               std::atomic<std::int64_t>::is_always_lock_free &&
               std::atomic<std::uint32_t>::is_always_lock_free);
-
-// Not reached by counting: a head that announces more is wrong. Below it a number and its double
-// never wrap, so that one value after another comes to an end.
-inline constexpr std::uint64_t kLastSequence = std::uint64_t{1} << 62U;
 
 // Which program writes a channel; stored in the channel as its writer's claim.
 enum class Role : std::uint32_t { kNobody = 0, kLow = 1, kHigh = 2 };
@@ -178,6 +175,13 @@ class Writer {
     head_->newest.store(sequence, std::memory_order_release);
   }
 
+  // The next publication has the number after this one, which must not be below the last: numbers
+  // of a recording are those that they were.
+  void go_on_after(std::uint64_t sequence) noexcept {
+    LODESMAN_CHECK(sequence >= sequence_ && sequence < kLastSequence);
+    sequence_ = sequence;
+  }
+
   // Of the last publication, or of the ghost that its predecessor left.
   [[nodiscard]] std::uint64_t sequence() const noexcept { return sequence_; }
 
@@ -206,11 +210,13 @@ class Writer {
 // A reader with a copy of its own: what it hands out stays valid until its next call, and is sane.
 // What is published and is not sane is passed over, as if it had never been published, and counted.
 template <Wire T, template <class> class Atomic = std::atomic>
-class Reader {
+class Reader : public ChannelLook<Atomic> {
  public:
+  using ChannelLook<Atomic>::newest_sequence;
+
   template <std::size_t kDepth>
   explicit Reader(const Channel<T, kDepth, Atomic>& channel)
-      : head_{&channel.head},
+      : ChannelLook<Atomic>{channel.head.newest},
         slots_{channel.slots.data()},
         count_{kDepth},
         held_{std::make_unique<Stamped<T>>()},
@@ -230,6 +236,7 @@ class Reader {
       if (taken != Taken::kNotWhole) {
         break;
       }
+      this->look_again();
     }
     return held_->sequence == 0 ? nullptr : held_.get();
   }
@@ -270,6 +277,7 @@ class Reader {
         return held_.get();
       }
       // Its slot is being written over, perhaps for ever by a writer that is dead: it is gone.
+      this->look_again();
       ++wanted;
     }
     return nullptr;
@@ -284,11 +292,6 @@ class Reader {
     return held || take(sequence) == Taken::kWhole ? held_.get() : nullptr;
   }
 
-  // 0 as long as there was none, or where the head is wrong.
-  [[nodiscard]] std::uint64_t newest_sequence() const noexcept {
-    const std::uint64_t newest = head_->newest.load(std::memory_order_acquire);
-    return newest <= kLastSequence ? newest : 0;
-  }
   [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
   // How many values were passed over because they were not sane.
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
@@ -362,7 +365,6 @@ class Reader {
     return Taken::kWhole;
   }
 
-  const ChannelHead<T, Atomic>* head_;
   const ChannelSlot<T, Atomic>* slots_;
   std::size_t count_;
   std::unique_ptr<Stamped<T>> held_;

@@ -34,8 +34,10 @@ LockstepRunner::LockstepRunner(std::span<const TaskEntry> entries, SimClock& clo
   for (const auto& task : ordered) {
     LODESMAN_CHECK(task.spec.nominal > Duration::zero());
     Bell<>& bell = board.bell_of(task.spec.id);
-    entries_.push_back({task, HealthKeeper{board, task.spec, Role::kLow}, &bell, look_at(bell)});
+    entries_.push_back({task, HealthKeeper{board, task.spec, Role::kLow},
+                        StepWitness{board, task, Role::kLow}, &bell, look_at(bell)});
     Entry& entry = entries_.back();
+    entry.witness.begin(clock.now());
     entry.nominal = clock.now() + task.spec.phase;
     put_on_grid(entry);
   }
@@ -56,7 +58,9 @@ void LockstepRunner::step() noexcept {
   entry.woken.reset();
   entry.began = now;
   const Stopwatch stopwatch;
+  entry.witness.look();
   entry.task.task->step(now);
+  entry.witness.stepped(now);
   entry.health.stepped({now, {}, stopwatch.elapsed(), 0, entry.task.task->refused(), cause});
   if (cause == StepCause::kPeriod) {
     entry.nominal += entry.task.spec.period;

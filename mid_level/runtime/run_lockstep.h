@@ -11,6 +11,7 @@
 
 #include "mid_level/base/clock.h"
 #include "mid_level/runtime/health.h"
+#include "mid_level/runtime/step_witness.h"
 #include "mid_level/runtime/task.h"
 
 namespace lodesman {
@@ -35,6 +36,7 @@ class LockstepRunner {
   struct Entry {
     TaskEntry task;
     HealthKeeper health;
+    StepWitness witness;
     Bell<>* bell;
     std::uint32_t seen;           // of the bell
     Time nominal{};               // on the grid, without jitter

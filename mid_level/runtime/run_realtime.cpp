@@ -10,6 +10,7 @@
 #include "mid_level/base/clock.h"
 #include "mid_level/runtime/health.h"
 #include "mid_level/runtime/realtime_rights.h"
+#include "mid_level/runtime/step_witness.h"
 
 namespace lodesman {
 namespace {
@@ -34,12 +35,14 @@ struct RealtimeRunner::Worker {
   Worker(const TaskEntry& entry_in, Blackboard& board, Role role)
       : entry{entry_in},
         health{board, entry_in.spec, role},
+        witness{board, entry_in, role},
         bell{board.bell_of(entry_in.spec.id)},
         seen{look_at(bell)} {}
 
   void run() noexcept {
     pthread_setname_np(pthread_self(), to_string(entry.spec.id));
     health.holds_fifo_priority(hold_fifo_priority(entry.spec.fifo_priority));
+    witness.begin(clock.now());
     due = next_due(entry.spec, clock.now());
     while (wait_for_work()) {
       step();
@@ -65,9 +68,11 @@ struct RealtimeRunner::Worker {
   }
 
   void step() noexcept {
+    witness.look();
     began = clock.now();
     const Duration rung_ago = since_ring(bell, began);
     entry.task->step(began);
+    witness.stepped(began);
     const Time ended = clock.now();
     StepTimes times{began, began - due, ended - began, 0, entry.task->refused()};
     if (began < due) {
@@ -85,6 +90,7 @@ struct RealtimeRunner::Worker {
   TaskEntry entry;
   SteadyClock clock;
   HealthKeeper health;
+  StepWitness witness;
   Bell<>& bell;
   std::uint32_t seen;  // of the bell, when the last step began
   Time due{};          // by its period

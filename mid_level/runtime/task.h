@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "mid_level/base/time.h"
 #include "mid_level/blackboard/blackboard.h"
@@ -28,6 +29,17 @@ class Task {
   // How many of its inputs were passed over so far because they were not sane: a device's samples
   // and what stood on the blackboard.
   [[nodiscard]] virtual std::uint64_t refused() const noexcept { return 0; }
+  // All of its readers, but for those of its own channels, where a step can be made again from what
+  // they saw (ADR 0038); else nothing. Always the same, in the same order: causes before effects,
+  // for they are looked at from the last to the first, so that who sees one sees its cause.
+  [[nodiscard]] virtual std::span<ChannelLook<>* const> inputs() noexcept { return {}; }
+
+  // Whoever steps it counts.
+  [[nodiscard]] std::uint64_t steps() const noexcept { return steps_; }
+  void count_step() noexcept { ++steps_; }
+
+ private:
+  std::uint64_t steps_ = 0;
 };
 
 // When a task runs: one row of the project's task table.

@@ -227,7 +227,7 @@ judge_words() {
   words=$(inside lodesman --help | awk '/^Subcommands:/ { on = 1; next } on && /^  [a-z]/ { print $1 }')
   [ -n "$words" ] || fail "lodesman --help lists no words"
   for word in $words; do
-    case $word in sim | hil | segment | plot) continue ;; esac  # lodesman-bench has them
+    case $word in sim | hil | segment | plot | replay) continue ;; esac  # lodesman-bench has them
     page=$(gunzip -c "$place/root/usr/share/man/man1/lodesman-$word.1.gz" | sed 's/\\f.//g; s/\\-/-/g') ||
       fail "lodesman $word has no page"
     for option in $(inside lodesman "$word" --help | grep -o -- '--[a-z][a-z-]*' | sort -u); do

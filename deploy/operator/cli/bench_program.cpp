@@ -13,6 +13,7 @@
 
 #include "deploy/boat/exit_status.h"
 #include "deploy/operator/cli/plot_command.h"
+#include "deploy/operator/cli/replay_command.h"
 #include "deploy/operator/cli/segment_command.h"
 #include "deploy/operator/cli/sim_command.h"
 
@@ -25,7 +26,8 @@ struct Word {
 };
 
 constexpr std::array kWords{Word{"sim", kSimDescription}, Word{"hil", kHilDescription},
-                            Word{"segment", kSegmentDescription}, Word{"plot", kPlotDescription}};
+                            Word{"segment", kSegmentDescription}, Word{"plot", kPlotDescription},
+                            Word{"replay", kReplayDescription}};
 
 }  // namespace
 

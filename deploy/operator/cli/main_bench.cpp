@@ -6,6 +6,7 @@
 #include "deploy/boat/process_main.h"
 #include "deploy/boat/version.h"
 #include "deploy/operator/cli/plot_command.h"
+#include "deploy/operator/cli/replay_command.h"
 #include "deploy/operator/cli/segment_command.h"
 #include "deploy/operator/cli/sim_command.h"
 
@@ -21,5 +22,6 @@ int main(int argc, char** argv) {
   cli::add_hil_command(app, exit_status);
   cli::add_segment_command(app, exit_status);
   cli::add_plot_command(app, exit_status);
+  cli::add_replay_command(app, exit_status);
   return lodesman::process_main(app, argc, argv, [&] { return exit_status; });
 }

@@ -254,3 +254,58 @@ TEST_CASE("channel: concurrent readers see whole values in order", "[mid_level][
   CHECK(torn == 0);
   CHECK(backwards == 0);
 }
+
+TEST_CASE("channel: a reader that has looked sees nothing newer until it looks again",
+          "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Block, 4>>();
+  Writer<Block> writer{*channel, Role::kLow, "blocks"};
+  Reader<Block> reader{*channel};
+  writer.publish(Block::of(1), at(10));
+  reader.look();
+  writer.publish(Block::of(2), at(20));
+  CHECK(reader.newest_sequence() == 1);
+  CHECK(reader.latest()->sequence == 1);
+  CHECK(reader.fresh(at(20), Duration{100})->sequence == 1);
+  CHECK(reader.next() == nullptr);
+  CHECK(reader.at(2) == nullptr);
+  CHECK(reader.is_whole());
+  reader.look();
+  CHECK(reader.latest()->sequence == 2);
+  // As it was seen before, whatever there is by now.
+  Reader<Block> again{*channel};
+  again.look_up_to(1);
+  CHECK(again.latest()->sequence == 1);
+}
+
+TEST_CASE("channel: what was to be seen and is written over gives way to what there is",
+          "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Block, 2>>();
+  Writer<Block> writer{*channel, Role::kLow, "blocks"};
+  Reader<Block> reader{*channel};
+  writer.publish(Block::of(1), at(10));
+  reader.look();
+  for (std::uint64_t value = 2; value <= 4; ++value) {
+    writer.publish(Block::of(value), at(20));
+  }
+  REQUIRE(reader.latest() != nullptr);
+  CHECK(reader.latest()->value.words[0] == 4);
+  CHECK(reader.newest_sequence() == 4);
+  CHECK_FALSE(reader.is_whole());
+  reader.look();
+  CHECK(reader.is_whole());
+}
+
+TEST_CASE("channel: a writer that goes on after a number leaves out those before",
+          "[mid_level][blackboard]") {
+  const auto channel = std::make_unique<Channel<Block, 4>>();
+  Writer<Block> writer{*channel, Role::kLow, "blocks"};
+  Reader<Block> reader{*channel};
+  writer.go_on_after(6);
+  writer.publish(Block::of(7), at(10));
+  writer.go_on_after(8);
+  writer.publish(Block::of(9), at(20));
+  CHECK(reader.next()->sequence == 7);
+  CHECK(reader.next()->sequence == 9);
+  CHECK(reader.next() == nullptr);
+  CHECK(reader.at(8) == nullptr);
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Has a task look at its channels once a step, and publishes how far it saw each of them, so that
+// the step can be made again from a recording. Part of a runner; one thread. It allocates nothing
+// once made.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "mid_level/runtime/task.h"
+
+namespace lodesman {
+
+class StepWitness {
+ public:
+  StepWitness(Blackboard& board, const TaskEntry& entry, Role role) : task_{*entry.task} {
+    const auto inputs = task_.inputs();
+    LODESMAN_CHECK(inputs.size() <= StepInputs::kMost);
+    for (std::size_t i = 0; i < kReplayedCount && !inputs.empty(); ++i) {
+      if (kStepInputsInfo[i].task == entry.spec.id) {
+        writer_.emplace(board.step_inputs[i], role, kStepInputsInfo[i].channel);
+      }
+    }
+    told_.count = inputs.size();
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      told_.inputs[i].channel = place_of(board, *inputs[i]);
+    }
+  }
+
+  // Before the first step that this runner makes: a task that never was stepped is told of.
+  void begin(Time now) noexcept {
+    if (task_.steps() == 0) {
+      look();
+      tell(now);
+    }
+  }
+  void look() noexcept {
+    const auto inputs = task_.inputs();
+    std::for_each(inputs.rbegin(), inputs.rend(), [](ChannelLook<>* input) { input->look(); });
+  }
+  void stepped(Time began) noexcept {
+    task_.count_step();
+    tell(began);
+  }
+
+ private:
+  [[nodiscard]] static std::uint64_t place_of(Blackboard& board, const ChannelLook<>& input) {
+    std::uint64_t place = 0;
+    std::optional<std::uint64_t> found;
+    for_each_channel(board, [&](const ChannelInfo& /*info*/, const auto& channel) {
+      found = &channel.head.newest == input.channel() ? place : found;
+      ++place;
+    });
+    LODESMAN_CHECK(found.has_value());
+    return *found;
+  }
+
+  void tell(Time at) noexcept {
+    if (!writer_) {
+      return;
+    }
+    const auto inputs = task_.inputs();
+    told_.step = task_.steps();
+    told_.whole = true;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      told_.inputs[i].sequence = inputs[i]->newest_sequence();
+      told_.whole &= inputs[i]->is_whole();
+    }
+    writer_->publish(told_, at);
+  }
+
+  Task& task_;
+  std::optional<Writer<StepInputs>> writer_;
+  StepInputs told_;
+};
+
+}  // namespace lodesman
