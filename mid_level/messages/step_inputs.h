@@ -18,8 +18,8 @@ struct SeenInput {
   std::uint64_t sequence = 0;  // [-] the newest publication that it could see; 0: there was none
 
   static constexpr auto fields() noexcept {
-    return std::tuple{field("channel", &SeenInput::channel),
-                      field("sequence", &SeenInput::sequence)};
+    return field_list(field("channel", &SeenInput::channel),
+                      field("sequence", &SeenInput::sequence));
   }
 };
 
@@ -40,8 +40,8 @@ struct StepInputs {
 
   static constexpr auto fields() noexcept {
     using S = StepInputs;
-    return std::tuple{field("step", &S::step), field("whole", &S::whole), field("count", &S::count),
-                      field("inputs", &S::inputs, &S::count)};
+    return field_list(field("step", &S::step), field("whole", &S::whole), field("count", &S::count),
+                      field("inputs", &S::inputs, &S::count));
   }
 };
 

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <type_traits>
 
 #include "mid_level/messages/fields.h"
@@ -102,11 +101,9 @@ template <class T>
 std::optional<FieldDifference> difference_of(const T& recorded, const T& replayed) {
   if constexpr (HasFields<T>) {
     std::optional<FieldDifference> first;
-    std::apply(
-        [&](const auto&... f) {
-          (void)((first = difference_of_field(recorded, replayed, f), first.has_value()) || ...);
-        },
-        T::fields());
+    T::fields()([&](const auto&... f) {
+      (void)((first = difference_of_field(recorded, replayed, f), first.has_value()) || ...);
+    });
     return first;
   } else if constexpr (kind_of<T>() == FieldKind::kArray) {
     return difference_of_elements(recorded, replayed, recorded.size());

@@ -6,7 +6,7 @@
 set -eu
 . "$(dirname "$0")/common.sh"
 count=${1:-1000}
-hil_s=60
+hil_s=$((count < 24 ? 15 : 60))
 
 heading
 printf '\n| recording | profile | s | decisions | differ | not judged | times real time |\n|---|---|---|---|---|---|---|\n'

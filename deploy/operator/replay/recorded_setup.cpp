@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <optional>
-#include <tuple>
 #include <type_traits>
 
 #include "deploy/boat/voyage.h"
@@ -45,7 +44,7 @@ struct Notes {
       }
     }
   };
-  std::apply([&](const auto&... f) { (add(f), ...); }, Tunables::fields());
+  Tunables::fields()([&](const auto&... f) { (add(f), ...); });
   return change;
 }
 
