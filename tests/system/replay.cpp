@@ -105,6 +105,15 @@ TEST_CASE("replay: what a task saw and is not in the recording is said, and not 
   // The estimator's own publication is missing, and no input of it.
   CHECK(of(result, TaskId::kEstimator).not_judged_in_all() == 1);
 
+  // Of a channel's beginning, which a recorder that came a moment late has not.
+  constexpr std::uint64_t kFirstKept = 5;
+  rewrite_recording(file, lacking, [](RewrittenMessage& message) {
+    return message.topic != "raw/vehicle_state" || message.head.sequence >= kFirstKept;
+  });
+  const ReplayResult headless = replayed(lacking);
+  CHECK(headless.differing() == 0);
+  CHECK(of(headless, TaskId::kEstimator).not_judged_in_all() == kFirstKept - 1);
+
   // Without what steps saw nothing can be judged, nor is.
   rewrite_recording(file, lacking, [](RewrittenMessage& message) {
     return message.topic.find("_inputs") == std::string::npos;

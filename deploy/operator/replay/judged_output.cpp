@@ -71,7 +71,7 @@ class OutputOf final : public JudgedOutput {
   // the file ends.
   [[nodiscard]] bool may_be_missing(const ChannelLog& log) const noexcept {
     const Recorded* next = log.after(taken_);
-    return next == nullptr ? log.newest() != 0 : taken_ != 0 && next->sequence > taken_ + 1;
+    return next == nullptr ? log.newest() != 0 : next->sequence > taken_ + 1;
   }
 
   void compare(const Recorded* recorded, const Stamped<T>* replayed, Time stepped,
