@@ -91,8 +91,8 @@ class EstimatorTask final : public Task {
   Writer<EstimatorMemory> memories_;
   PastInputs past_;
   std::array<ChannelLook<>*, 6> inputs_{
-      &attitude_,       &position_fix_,        &world_truth_,
-      &thrust_applied_, &past_.thrust_input(), &past_.attitude_input()};
+      &past_.thrust_input(), &past_.attitude_input(), &world_truth_, &thrust_applied_, &attitude_,
+      &position_fix_};
   // What one that was here before remembered; empty once it was taken up, or too old.
   std::optional<EstimatorMemory> legacy_;
   Time reckoned_to_{};  // by the other sources; 0: not yet

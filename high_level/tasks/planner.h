@@ -94,9 +94,9 @@ class PlannerTask final : public Task {
   Reader<ThrustApplied> thrust_applied_;
   Reader<ThrustStatus> thrust_status_;
   std::array<ChannelLook<>*, 13> inputs_{
-      &definitions_, &orders_,         &link_,         &tunables_, &vehicle_state_,
-      &obstacles_,   &tracks_,         &sonar_path_,   &attitude_, &position_fix_,
-      &helm_,        &thrust_applied_, &thrust_status_};
+      &definitions_,  &orders_,         &link_,         &tunables_, &attitude_,
+      &position_fix_, &vehicle_state_,  &obstacles_,    &tracks_,   &sonar_path_,
+      &helm_,         &thrust_applied_, &thrust_status_};
   Writer<PathRequest> requests_;
   Writer<Plan> plans_;
   Writer<MissionStatus> statuses_;

@@ -61,7 +61,7 @@ class DeltaTTask final : public Task {
   Reader<VehicleState> every_state_;  // the same, one after the other
   PoseHistory poses_;
   Reader<MissionStatus> mission_status_;
-  std::array<ChannelLook<>*, 3> inputs_{&vehicle_state_, &every_state_, &mission_status_};
+  std::array<ChannelLook<>*, 3> inputs_{&every_state_, &vehicle_state_, &mission_status_};
   Writer<SonarPing> pings_;
   Writer<SonarObstacles> obstacles_;
   Writer<Tracks> tracks_;

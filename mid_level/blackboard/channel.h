@@ -277,7 +277,9 @@ class Reader : public ChannelLook<Atomic> {
         return held_.get();
       }
       // Its slot is being written over, perhaps for ever by a writer that is dead: it is gone.
-      this->look_again();
+      if (is_written_over(wanted)) {
+        this->look_again();
+      }
       ++wanted;
     }
     return nullptr;
@@ -288,8 +290,11 @@ class Reader : public ChannelLook<Atomic> {
     if (sequence == 0 || sequence > newest_sequence()) {
       return nullptr;  // what is not announced does not count, even if it is whole
     }
-    const bool held = held_->sequence == sequence;
-    return held || take(sequence) == Taken::kWhole ? held_.get() : nullptr;
+    if (held_->sequence == sequence || take(sequence) == Taken::kWhole) {
+      return held_.get();
+    }
+    note_if_written_over(sequence);
+    return nullptr;
   }
 
   [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
@@ -316,6 +321,16 @@ class Reader : public ChannelLook<Atomic> {
            slots_[held % count_].version.load(std::memory_order_acquire) == 2 * held;
   }
 
+  // Whether a later value has the place of this one, or is about to.
+  [[nodiscard]] bool is_written_over(std::uint64_t sequence) const noexcept {
+    return slots_[sequence % count_].version.load(std::memory_order_acquire) > 2 * sequence;
+  }
+  void note_if_written_over(std::uint64_t sequence) noexcept {
+    if (is_written_over(sequence)) {
+      this->note_written_over();
+    }
+  }
+
   // Takes the newest whole and sane value older than `sequence` that the ring has and that is
   // wanted; the one held counts too.
   template <class Wanted>
@@ -325,6 +340,7 @@ class Reader : public ChannelLook<Atomic> {
       if ((older == held_->sequence || take(older) == Taken::kWhole) && wanted(*held_)) {
         return true;
       }
+      note_if_written_over(older);
     }
     return false;
   }

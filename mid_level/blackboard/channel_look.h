@@ -36,9 +36,11 @@ class ChannelLook {
   [[nodiscard]] const void* channel() const noexcept { return newest_; }
 
  protected:
-  // What it was to see is written over: it sees what there is now, rather than nothing.
+  // Something that it asked for and was to see is written over.
+  void note_written_over() noexcept { whole_ = false; }
+  // And so it sees what there is now, rather than nothing.
   void look_again() noexcept {
-    whole_ = false;
+    note_written_over();
     seen_ = seen_ == kAll ? kAll : announced();
   }
 

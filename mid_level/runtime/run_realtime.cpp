@@ -68,8 +68,8 @@ struct RealtimeRunner::Worker {
   }
 
   void step() noexcept {
-    witness.look();
     began = clock.now();
+    witness.look();
     const Duration rung_ago = since_ring(bell, began);
     entry.task->step(began);
     witness.stepped(began);

@@ -114,6 +114,20 @@ TEST_CASE("replay: what a task saw and is not in the recording is said, and not 
   CHECK(headless.differing() == 0);
   CHECK(of(headless, TaskId::kEstimator).not_judged_in_all() == kFirstKept - 1);
 
+  // A channel that falls silent while its task goes on is no gap.
+  rewrite_recording(file, lacking, [](RewrittenMessage& message) {
+    return message.topic != "raw/helm_command" || message.head.sequence < kInTheMiddle;
+  });
+  CHECK(of(replayed(lacking), TaskId::kController).differing > 0);
+
+  // Nor is a task agreed with of which no step is recorded.
+  rewrite_recording(file, lacking, [](RewrittenMessage& message) {
+    return message.topic != "raw/planner_inputs";
+  });
+  const ReplayResult stepless = replayed(lacking);
+  CHECK(of(stepless, TaskId::kPlanner).judged == 0);
+  CHECK(of(stepless, TaskId::kPlanner).not_judged_in_all() > 0);
+
   // Without what steps saw nothing can be judged, nor is.
   rewrite_recording(file, lacking, [](RewrittenMessage& message) {
     return message.topic.find("_inputs") == std::string::npos;

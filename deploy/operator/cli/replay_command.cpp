@@ -184,9 +184,9 @@ void tell_what_is_not_judged(const ReplayResult& result) {
     fmt::print(stderr, "\n");
   }
   tell_what_is_not_judged(result);
-  if (result.judged() + result.not_judged() == 0 && !stop_caught()) {
+  if (result.judged() == 0 && !stop_caught()) {
     throw StartupError(options.files.front().string() +
-                       ": there is no decision in it whose inputs are recorded");
+                       ": there is no decision in it that can be judged");
   }
   if (options.json) {
     print_json(result, options.told);

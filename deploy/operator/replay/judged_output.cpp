@@ -21,14 +21,16 @@ class OutputOf final : public JudgedOutput {
 
   [[nodiscard]] std::uint64_t channel() const noexcept override { return place_; }
 
-  void judge(Time stepped, const ChannelLog& log, StepOutput& output) override {
+  void judge(Time stepped, const ChannelLog& log, bool ends, StepOutput& output) override {
     pass_over_before(stepped, log, output);
     const Stamped<T>* replayed = reader_.next();
     const Recorded* recorded = taken_at(stepped, log, output);
     while (replayed != nullptr || recorded != nullptr) {
-      if (recorded == nullptr && may_be_missing(log)) {
+      if (recorded == nullptr && misses_next_number(log)) {
         ++output.missing;
         ++taken_;
+      } else if (recorded == nullptr && ends && log.after(taken_) == nullptr) {
+        ++output.missing;
       } else {
         compare(recorded, replayed, stepped, output);
       }
@@ -67,11 +69,10 @@ class OutputOf final : public JudgedOutput {
     output.missing += taken_ == 0 ? 0 : next.sequence - taken_ - 1;
   }
 
-  // Whether what is not recorded here may have been published nevertheless: a number is missing, or
-  // the file ends.
-  [[nodiscard]] bool may_be_missing(const ChannelLog& log) const noexcept {
+  // What is not recorded here may have been published nevertheless: its number is in no file.
+  [[nodiscard]] bool misses_next_number(const ChannelLog& log) const noexcept {
     const Recorded* next = log.after(taken_);
-    return next == nullptr ? log.newest() != 0 : next->sequence > taken_ + 1;
+    return next != nullptr && next->sequence > taken_ + 1;
   }
 
   void compare(const Recorded* recorded, const Stamped<T>* replayed, Time stepped,

@@ -33,8 +33,8 @@ class JudgedOutput {
   virtual ~JudgedOutput() = default;
 
   [[nodiscard]] virtual std::uint64_t channel() const noexcept = 0;
-  // After each step.
-  virtual void judge(Time stepped, const ChannelLog& log, StepOutput& output) = 0;
+  // After each step. `ends`: so near to the recording's end that what it published may be lost.
+  virtual void judge(Time stepped, const ChannelLog& log, bool ends, StepOutput& output) = 0;
   // What was recorded after the last step.
   [[nodiscard]] virtual std::uint64_t left(const ChannelLog& log) const noexcept = 0;
 };

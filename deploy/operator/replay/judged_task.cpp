@@ -61,7 +61,7 @@ void JudgedTask::advance(Time until, const std::vector<std::uint64_t>& places) {
     taken_ = next->sequence;
     StepInputs inputs;
     if (decode_raw(next->raw, inputs)) {
-      step(*next, inputs, places);
+      step(*next, inputs, places, until == Time::max());
     } else {
       doubt(Doubt::kGap);
     }
@@ -69,10 +69,12 @@ void JudgedTask::advance(Time until, const std::vector<std::uint64_t>& places) {
 }
 
 void JudgedTask::step(const Recorded& recorded, const StepInputs& inputs,
-                      const std::vector<std::uint64_t>& places) {
-  if (inputs.step == 0 || !task_) {
+                      const std::vector<std::uint64_t>& places, bool ends) {
+  // A number that begins anew is another program's, even if its beginning is not recorded.
+  if (inputs.step == 0 || !task_ || inputs.step <= step_) {
     make(recorded.stamp, inputs, places);
   }
+  step_ = inputs.step;
   if (inputs.step == 0) {
     return;
   }
@@ -91,7 +93,7 @@ void JudgedTask::step(const Recorded& recorded, const StepInputs& inputs,
   ++verdict_.steps;
   first_step_ = first_step_.value_or(recorded.stamp);
   last_step_ = recorded.stamp;
-  judge(recorded.stamp);
+  judge(recorded.stamp, ends);
 }
 
 // As it was made on the boat: on what its channels held then, its own of before too.
@@ -108,14 +110,18 @@ void JudgedTask::make(Time at, const StepInputs& inputs, const std::vector<std::
   std::vector<std::uint64_t> last;
   for (const std::uint64_t channel : decisions_) {
     last.push_back(log_[channel].newest_by(before));
-    board_->feed_up_to(channel, last.back(), log_[channel]);
+    if (!board_->feed_up_to(channel, last.back(), log_[channel])) {
+      doubt(Doubt::kGap);
+    }
     board_->release(channel);
   }
   feed(inputs, places);
   sonar_.begin_after(log_[pings_channel_].newest_by(before));
   task_ = make_task(verdict_.task, **board_, options_, sonar_);
   for (std::size_t i = 0; i < decisions_.size(); ++i) {
-    outputs_.push_back(JudgedOutput::of(**board_, decisions_[i], last[i]));
+    if (!log_[decisions_[i]].is_left_out()) {
+      outputs_.push_back(JudgedOutput::of(**board_, decisions_[i], last[i]));
+    }
   }
 }
 
@@ -140,13 +146,13 @@ void JudgedTask::feed(const StepInputs& inputs, const std::vector<std::uint64_t>
   }
 }
 
-void JudgedTask::judge(Time stepped) {
+void JudgedTask::judge(Time stepped, bool ends) {
   StepOutput output;
   for (const auto& each : outputs_) {
-    each->judge(stepped, log_[each->channel()], output);
+    each->judge(stepped, log_[each->channel()], ends, output);
   }
   verdict_.not_judged[static_cast<std::size_t>(Doubt::kNoStep)] += output.outside;
-  verdict_.not_judged[static_cast<std::size_t>(Doubt::kGap)] += output.missing;
+  verdict_.not_judged[static_cast<std::size_t>(Doubt::kLost)] += output.missing;
   std::uint64_t decisions = output.recorded;
   for (const Difference& difference : output.differences) {
     decisions += difference.kind == DifferenceKind::kPublished ? 1U : 0U;
@@ -188,6 +194,11 @@ void JudgedTask::doubt(Doubt why) noexcept {
 }
 
 void JudgedTask::finish() {
+  if (!task_) {
+    for (const std::uint64_t channel : decisions_) {
+      verdict_.not_judged[static_cast<std::size_t>(Doubt::kNoStep)] += log_[channel].count();
+    }
+  }
   for (const auto& each : outputs_) {
     verdict_.not_judged[static_cast<std::size_t>(Doubt::kNoStep)] +=
         each->left(log_[each->channel()]);

@@ -38,13 +38,13 @@ class JudgedTask {
 
  private:
   void step(const Recorded& recorded, const StepInputs& inputs,
-            const std::vector<std::uint64_t>& places);
+            const std::vector<std::uint64_t>& places, bool ends);
   void make(Time at, const StepInputs& inputs, const std::vector<std::uint64_t>& places);
   // The place in the log of input `i`; empty where the recording has it otherwise than this build.
   [[nodiscard]] std::optional<std::uint64_t> place_of(
       const StepInputs& inputs, std::size_t i, const std::vector<std::uint64_t>& places) const;
   void feed(const StepInputs& inputs, const std::vector<std::uint64_t>& places);
-  void judge(Time stepped);
+  void judge(Time stepped, bool ends);
   void judge_in_doubt(Time stepped, std::uint64_t decisions, bool agrees);
   void doubt(Doubt why) noexcept;
 
@@ -60,6 +60,7 @@ class JudgedTask {
   std::unique_ptr<Task> task_;
   std::vector<std::unique_ptr<JudgedOutput>> outputs_;
   std::uint64_t taken_ = 0;       // the last record of a step that was looked at
+  std::uint64_t step_ = 0;        // the number of that step
   std::optional<Doubt> doubted_;  // nothing: what the task remembers is what it remembered
   std::optional<Time> agrees_since_;
   std::uint64_t agreed_ = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 #include "mid_level/blackboard/blackboard.h"
@@ -16,10 +17,11 @@ std::uint64_t ChannelLog::whole_number(std::uint32_t low) const noexcept {
 }
 
 bool ChannelLog::add(Recorded recorded) {
-  if (recorded.sequence <= newest_) {
+  if (recorded.sequence <= newest_ || recorded.raw.size() > largest_bytes_) {
     return false;
   }
   newest_ = recorded.sequence;
+  ++count_;
   bytes_ += recorded.raw.size();
   kept_.push_back(std::move(recorded));
   return true;
@@ -49,7 +51,8 @@ PublicationLog empty_log() {
   PublicationLog log;
   const auto board = std::make_unique<Blackboard>();
   for_each_channel(*board, [&](const ChannelInfo& /*info*/, const auto& channel) {
-    log.emplace_back(channel.kSlots);
+    using T = typename std::remove_cvref_t<decltype(channel)>::Value;
+    log.emplace_back(channel.kSlots, sizeof(T));
   });
   return log;
 }

@@ -20,12 +20,13 @@ struct Recorded {
 
 class ChannelLog {
  public:
-  // `depth`: of the channel's ring.
-  explicit ChannelLog(std::size_t depth) : depth_{depth} {}
+  // `depth`: of the channel's ring. `largest_bytes`: of its messages.
+  ChannelLog(std::size_t depth, std::size_t largest_bytes)
+      : depth_{depth}, largest_bytes_{largest_bytes} {}
 
   // The whole number, where a file has its low half.
   [[nodiscard]] std::uint64_t whole_number(std::uint32_t low) const noexcept;
-  // False where it is known already.
+  // False where its number does not go on from the newest, or it is too large to be of the channel.
   bool add(Recorded recorded);
 
   // The first after that number; nullptr where there is none (yet).
@@ -35,13 +36,25 @@ class ChannelLog {
   // The last that was published by then; 0: none is known.
   [[nodiscard]] std::uint64_t newest_by(Time stamp) const noexcept;
   [[nodiscard]] std::size_t depth() const noexcept { return depth_; }
-  [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
+  // In memory.
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return bytes_ + kept_.size() * sizeof(Recorded);
+  }
+  // That were added.
+  [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
 
   // What is older is not asked for any more, but for what the ring would still hold.
   void forget_before(Time stamp);
 
+  // The recording's messages of it are another build's.
+  void leave_out() noexcept { left_out_ = true; }
+  [[nodiscard]] bool is_left_out() const noexcept { return left_out_; }
+
  private:
   std::size_t depth_;
+  std::size_t largest_bytes_;
+  bool left_out_ = false;
+  std::uint64_t count_ = 0;
   std::uint64_t newest_ = 0;
   std::size_t bytes_ = 0;
   std::deque<Recorded> kept_;

@@ -159,6 +159,10 @@ class Replaying {
     if (gaps_ > 0) {
       result.lacks.push_back(std::to_string(gaps_) + " publications were missed by the recorder");
     }
+    if (out_of_order_ > 0) {
+      result.lacks.push_back(std::to_string(out_of_order_) +
+                             " publications are too large, or of numbers that do not go on");
+    }
     if (of_no_clock_ > 0) {
       result.lacks.push_back(std::to_string(of_no_clock_) + " publications are of no clock");
     }
@@ -185,7 +189,12 @@ class Replaying {
     places_.push_back(fits ? place : known_.size());
     if (fits) {
       by_id_[met.id] = place;
-    } else if (std::find(left_out_.begin(), left_out_.end(), met.topic) == left_out_.end()) {
+      return;
+    }
+    if (place < known_.size()) {
+      segment_->log()[place].leave_out();
+    }
+    if (std::find(left_out_.begin(), left_out_.end(), met.topic) == left_out_.end()) {
       left_out_.push_back(met.topic);
     }
   }
@@ -205,8 +214,11 @@ class Replaying {
     }
     begin_anew_where_numbers_do(found->second, message.sequence);
     ChannelLog& log = segment_->log()[found->second];
-    log.add(
+    const bool is_added = log.add(
         {log.whole_number(message.sequence), stamp, {message.data.begin(), message.data.end()}});
+    if (!is_added && !is_said_again(kRawTopics + known_[found->second].name)) {
+      ++out_of_order_;
+    }
     segment_->came_to(stamp, places_);
     show(stamp);
   }
@@ -244,6 +256,7 @@ class Replaying {
   bool is_checked_ = true;  // that this file goes on in the same segment
   std::uint64_t gaps_ = 0;
   std::uint64_t of_no_clock_ = 0;
+  std::uint64_t out_of_order_ = 0;
   std::vector<std::string> left_out_;
   std::vector<std::string> lacks_;
   Duration span_{};  // of segments that are done

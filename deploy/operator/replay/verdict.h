@@ -35,15 +35,17 @@ enum class Doubt : std::uint8_t {
   kTorn,       // something that it saw was written over while it looked
   kForeign,    // it read other channels than this build's task does
   kNoStep,     // published outside of any recorded step, as when a program ends
+  kLost,       // what it published then is not in the recording
 };
-inline constexpr std::size_t kDoubtCount = 5;
+inline constexpr std::size_t kDoubtCount = 6;
 [[nodiscard]] constexpr const char* to_string(Doubt doubt) noexcept {
   switch (doubt) {
     case Doubt::kBeginning: return "begun before the recording";
     case Doubt::kGap: return "something it saw is not in the recording";
     case Doubt::kTorn: return "something it saw was written over meanwhile";
     case Doubt::kForeign: return "its inputs are of another build";
-    case Doubt::kNoStep: return "published outside of its steps";
+    case Doubt::kNoStep: return "published outside of its recorded steps";
+    case Doubt::kLost: return "what it published is not in the recording";
   }
   return "";
 }
