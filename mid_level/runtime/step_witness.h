@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "mid_level/blackboard/channel_places.h"
 #include "mid_level/runtime/task.h"
 
 namespace lodesman {
@@ -44,17 +45,6 @@ class StepWitness {
   }
 
  private:
-  [[nodiscard]] static std::uint64_t place_of(Blackboard& board, const ChannelLook<>& input) {
-    std::uint64_t place = 0;
-    std::optional<std::uint64_t> found;
-    for_each_channel(board, [&](const ChannelInfo& /*info*/, const auto& channel) {
-      found = &channel.head.newest == input.channel() ? place : found;
-      ++place;
-    });
-    LODESMAN_CHECK(found.has_value());
-    return *found;
-  }
-
   void tell(Time at) noexcept {
     if (!writer_) {
       return;

@@ -3,19 +3,19 @@
 // documented.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/catch.h"
+#include "tests/support/text_of.h"
 
 namespace lodesman::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::text_of;
 
 const fs::path kTree = LODESMAN_SOURCE_DIR;
 
@@ -35,12 +35,6 @@ const fs::path kTree = LODESMAN_SOURCE_DIR;
     files.insert(files.end(), shipped.begin(), shipped.end());
   }
   return files;
-}
-
-[[nodiscard]] std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file, std::ios::binary}.rdbuf();
-  return text.str();
 }
 
 void run(const Target& target, const std::string& input, const std::string& name) {

@@ -25,8 +25,9 @@ struct RewrittenMessage {
 // Asked of each message, which it may change: whether it is to be in the new file.
 using Rewrite = std::function<bool(RewrittenMessage&)>;
 
+// Of the attachments all but the one of that name are in it.
 inline void rewrite_recording(const std::filesystem::path& from, const std::filesystem::path& to,
-                              const Rewrite& rewrite) {
+                              const Rewrite& rewrite, const std::string& without = {}) {
   std::filesystem::remove(to);
   McapFileSource source{from};
   McapReader reader{source};
@@ -36,7 +37,7 @@ inline void rewrite_recording(const std::filesystem::path& from, const std::file
   for (McapItem item = reader.next(); item != McapItem::kEnd; item = reader.next()) {
     if (item == McapItem::kMetadata) {
       writer.add(reader.metadata());
-    } else if (item == McapItem::kAttachment) {
+    } else if (item == McapItem::kAttachment && reader.attachment().name != without) {
       writer.add(reader.attachment());
     } else if (item == McapItem::kChannel) {
       McapChannel channel = reader.channel();

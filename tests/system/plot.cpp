@@ -2,14 +2,12 @@
 // A run's files made from its recording: the same as were written when it was sailed, and those of
 // a boat that nobody tells the truth.
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "mid_level/recording/mcap_reader.h"
-#include "mid_level/recording/mcap_writer.h"
 #include "mid_level/recording/recording.h"
 #include "tests/support/catch.h"
+#include "tests/support/rewritten_recording.h"
+#include "tests/support/text_of.h"
 #include "tests/system/program.h"
 
 using namespace lodesman;
@@ -17,12 +15,6 @@ using namespace lodesman::testing;
 using nlohmann::json;
 
 namespace {
-
-[[nodiscard]] std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file, std::ios::binary}.rdbuf();
-  return text.str();
-}
 
 [[nodiscard]] json result_of(const fs::path& run) {
   return json::parse(std::ifstream{run / "result.json"});
@@ -46,28 +38,9 @@ namespace {
 
 // The recording as a boat on the water would have made it: no truth, and no scenario.
 void write_without_world(const fs::path& from, const fs::path& to) {
-  McapFileSource source{from};
-  McapReader reader{source};
-  DiskFile file{to};
-  McapWriter writer{file, "test"};
-  std::map<std::uint16_t, std::uint16_t> ids;
-  for (McapItem item = reader.next(); item != McapItem::kEnd; item = reader.next()) {
-    if (item == McapItem::kMetadata) {
-      writer.add(reader.metadata());
-    } else if (item == McapItem::kAttachment && reader.attachment().name != "scenario.toml") {
-      writer.add(reader.attachment());
-    } else if (item == McapItem::kChannel && reader.channel().topic != "raw/world_truth") {
-      McapChannel channel = reader.channel();
-      channel.schema = writer.add(*reader.schema_by_id(channel.schema));
-      ids[channel.id] = writer.add(channel);
-    } else if (item == McapItem::kMessage && ids.contains(reader.message().channel)) {
-      McapMessage message = reader.message();
-      message.channel = ids[message.channel];
-      writer.add(message);
-    }
-  }
-  writer.finish();
-  REQUIRE(file.keep() == 0);
+  rewrite_recording(
+      from, to, [](RewrittenMessage& message) { return message.topic != "raw/world_truth"; },
+      "scenario.toml");
 }
 
 }  // namespace

@@ -7,22 +7,15 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/catch.h"
+#include "tests/support/text_of.h"
 
 namespace lodesman::testing {
 
 namespace fs = std::filesystem;
-
-[[nodiscard]] inline std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file, std::ios::binary}.rdbuf();
-  return text.str();
-}
 
 struct Outcome {
   int status = -1;

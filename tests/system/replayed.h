@@ -3,8 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +12,7 @@
 #include "deploy/operator/replay/replay.h"
 #include "deploy/operator/run/lockstep_run.h"
 #include "tests/support/catch.h"
+#include "tests/support/text_of.h"
 #include "tests/system/boat.h"
 
 namespace lodesman::testing {
@@ -22,12 +21,6 @@ using namespace cli;
 
 // Long runs are cut off here: by then each has planned round what it meets.
 inline constexpr double kLongest_s = 60.0;
-
-[[nodiscard]] inline std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file, std::ios::binary}.rdbuf();
-  return text.str();
-}
 
 // The recording of a shipped scenario, sailed in lock-step.
 [[nodiscard]] inline fs::path sailed(const Scratch& scratch, const std::string& name,

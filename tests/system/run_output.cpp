@@ -8,9 +8,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "tests/support/full_pipe.h"
+#include "tests/support/text_of.h"
 #include "tests/system/program.h"
 
 using namespace lodesman;
@@ -20,12 +20,6 @@ namespace {
 
 nlohmann::json result_of(const fs::path& run) {
   return nlohmann::json::parse(std::ifstream{run / "result.json"}, nullptr, false);
-}
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file, std::ios::binary}.rdbuf();
-  return text.str();
 }
 
 std::size_t lines_in(const fs::path& file) {

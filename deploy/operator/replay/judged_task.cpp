@@ -2,40 +2,12 @@
 #include "deploy/operator/replay/judged_task.h"
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
+#include "mid_level/blackboard/channel_places.h"
 #include "mid_level/recording/raw_codec.h"
 
 namespace lodesman::cli {
-namespace {
-
-[[nodiscard]] std::uint64_t place_named(const Blackboard& board, std::string_view name) {
-  std::uint64_t place = 0;
-  std::uint64_t found = 0;
-  for_each_channel(board, [&](const ChannelInfo& info, const auto& /*channel*/) {
-    found = info.name == name ? place : found;
-    ++place;
-  });
-  return found;
-}
-
-// By their heads, the places of the channels that a task reads.
-[[nodiscard]] std::vector<std::uint64_t> places_read(const Blackboard& board, Task& task) {
-  std::vector<std::uint64_t> places;
-  for (const ChannelLook<>* input : task.inputs()) {
-    std::uint64_t place = 0;
-    for_each_channel(board, [&](const ChannelInfo& /*info*/, const auto& channel) {
-      if (&channel.head.newest == input->channel()) {
-        places.push_back(place);
-      }
-      ++place;
-    });
-  }
-  return places;
-}
-
-}  // namespace
 
 JudgedTask::JudgedTask(std::size_t place, const ReplayOptions& options,
                        const TunablesChange& change, const PublicationLog& log)
@@ -47,7 +19,9 @@ JudgedTask::JudgedTask(std::size_t place, const ReplayOptions& options,
     decisions_.push_back(place_named(**board_, name));
   }
   task_ = make_task(verdict_.task, **board_, options_, sonar_);
-  input_places_ = places_read(**board_, *task_);
+  for (const ChannelLook<>* input : task_->inputs()) {
+    input_places_.push_back(lodesman::place_of(**board_, *input));
+  }
   task_.reset();
 }
 

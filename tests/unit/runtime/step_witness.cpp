@@ -43,16 +43,6 @@ class Blind final : public Task {
   void step(Time /*now*/) noexcept override {}
 };
 
-[[nodiscard]] std::size_t place_named(const Blackboard& board, std::string_view name) {
-  std::size_t place = 0;
-  std::size_t found = 0;
-  for_each_channel(board, [&](const ChannelInfo& info, const auto& /*channel*/) {
-    found = info.name == name ? place : found;
-    ++place;
-  });
-  return found;
-}
-
 }  // namespace
 
 TEST_CASE("step witness: it tells what each step saw, and a step sees no more", "[runtime]") {
