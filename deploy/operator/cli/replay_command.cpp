@@ -44,8 +44,8 @@ struct ReplayCommandOptions {
 [[nodiscard]] double seconds_of(Time time) noexcept { return to_seconds(time.time_since_epoch()); }
 
 [[nodiscard]] std::string words_for(const Difference& difference) {
-  const std::string where = fmt::format("{:.6f} s: {}: {}", seconds_of(difference.stamp),
-                                        to_string(difference.task), difference.channel);
+  std::string where = fmt::format("{:.6f} s: {}: {}", seconds_of(difference.stamp),
+                                  to_string(difference.task), difference.channel);
   switch (difference.kind) {
     case DifferenceKind::kField:
       return fmt::format("{} {}: {}: recorded {}, replayed {}", where, difference.sequence,
