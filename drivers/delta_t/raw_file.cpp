@@ -9,27 +9,7 @@
 namespace lodesman::delta_t {
 namespace {
 
-constexpr double kKnot_m_s = 1852.0 / 3600.0;
 constexpr std::size_t kEchoesAt = 112;
-constexpr std::uint16_t kIsValid = 0x8000;
-constexpr std::uint16_t kValueBits = 0x7FFF;
-
-template <std::size_t kSize>
-void copy_text(Bytes bytes, std::size_t at, Text<kSize>& text) noexcept {
-  std::transform(bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                 bytes.begin() + static_cast<std::ptrdiff_t>(at + kSize), text.begin(),
-                 [](std::uint8_t byte) { return static_cast<char>(byte); });
-}
-
-[[nodiscard]] std::optional<double> valid_tenths(Bytes bytes, std::size_t at) noexcept {
-  const std::uint16_t word = word_at(bytes, at);
-  return (word & kIsValid) != 0 ? std::optional{(word & kValueBits) / 10.0} : std::nullopt;
-}
-[[nodiscard]] std::optional<double> valid_angle_rad(Bytes bytes, std::size_t at,
-                                                    double zero_deg) noexcept {
-  const std::optional<double> degrees = valid_tenths(bytes, at);
-  return degrees ? std::optional{to_rad(*degrees - zero_deg)} : std::nullopt;
-}
 
 // [-] echoes of the record that begins here; 0: none does.
 [[nodiscard]] std::size_t echoes_of(Bytes bytes) noexcept {
@@ -55,12 +35,12 @@ std::optional<RawFileRecord> raw_file_record_in(Bytes bytes) noexcept {
   RawFileRecord r;
   r.length = word_at(bytes, 4);
   r.data_points = static_cast<int>(echoes);
-  copy_text(bytes, 8, r.date);
-  copy_text(bytes, 20, r.time);
-  copy_text(bytes, 29, r.hundredths);
-  copy_text(bytes, 93, r.milliseconds);
-  copy_text(bytes, 48, r.latitude);
-  copy_text(bytes, 62, r.longitude);
+  r.date = text_at<sizeof(r.date)>(bytes, 8);
+  r.time = text_at<sizeof(r.time)>(bytes, 20);
+  r.hundredths = text_at<sizeof(r.hundredths)>(bytes, 29);
+  r.milliseconds = text_at<sizeof(r.milliseconds)>(bytes, 93);
+  r.latitude = text_at<sizeof(r.latitude)>(bytes, 48);
+  r.longitude = text_at<sizeof(r.longitude)>(bytes, 62);
   r.display_mode = bytes[37];
   r.gain_db = bytes[38];
   r.tilt_rad = valid_angle_rad(bytes, 39, 180.0);

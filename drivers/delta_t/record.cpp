@@ -11,9 +11,6 @@
 namespace lodesman::delta_t {
 namespace {
 
-constexpr double kKnot_m_s = 1852.0 / 3600.0;
-constexpr std::uint16_t kIsValid = 0x8000;
-constexpr std::uint16_t kValueBits = 0x7FFF;
 constexpr Duration kLatencyUnit = std::chrono::microseconds{100};
 constexpr int kMostRange_m = 300;
 // Water between ice and boiling, fresh or salt, down to any depth.
@@ -23,25 +20,6 @@ constexpr double kMostSoundSpeed_m_s = 1700.0;
 constexpr double kRangeTolerance = 0.02;
 constexpr double kMillimetresInCentimetre = 10.0;
 
-template <std::size_t kSize>
-[[nodiscard]] Text<kSize> text_at(Bytes bytes, std::size_t at) noexcept {
-  Text<kSize> text{};
-  std::transform(bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                 bytes.begin() + static_cast<std::ptrdiff_t>(at + kSize), text.begin(),
-                 [](std::uint8_t byte) { return static_cast<char>(byte); });
-  return text;
-}
-
-// A word whose highest bit says that the rest is a value.
-[[nodiscard]] std::optional<double> valid_tenths(Bytes bytes, std::size_t at) noexcept {
-  const std::uint16_t word = word_at(bytes, at);
-  return (word & kIsValid) != 0 ? std::optional{(word & kValueBits) / 10.0} : std::nullopt;
-}
-[[nodiscard]] std::optional<double> valid_angle_rad(Bytes bytes, std::size_t at,
-                                                    double zero_deg) noexcept {
-  const std::optional<double> degrees = valid_tenths(bytes, at);
-  return degrees ? std::optional{to_rad(*degrees - zero_deg)} : std::nullopt;
-}
 [[nodiscard]] Duration latency_at(Bytes bytes, std::size_t at) noexcept {
   return word_at(bytes, at) * kLatencyUnit;
 }

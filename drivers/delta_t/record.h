@@ -22,12 +22,7 @@ inline constexpr std::size_t kHeaderBytes = 256;
 // That ranges in a record are reckoned by.
 inline constexpr double kNominalSoundSpeed_m_s = 1500.0;
 
-enum class RecordKind : std::uint8_t { kImage, kProfile };  // 83B, 83P
-
-// So many characters as there is room for, with the zero at the end where there is one.
-template <std::size_t kSize>
-using Text = std::array<char, kSize>;
-// Up to the first zero.
+enum class RecordKind : std::uint8_t { kImage, kProfile };  // 83B, 83P// Up to the first zero.
 template <std::size_t kSize>
 [[nodiscard]] constexpr std::string_view text_of(const Text<kSize>& text) noexcept {
   const std::string_view whole{text.data(), text.size()};

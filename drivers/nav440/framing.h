@@ -33,6 +33,7 @@ struct Nav440FramingCounts {
 class Nav440Framing {
  public:
   static constexpr std::size_t kOverhead = 7;  // of a frame, besides its payload
+  static constexpr int kBitsOfByte = 10;       // on its line: 8, a start and a stop
   static constexpr std::size_t kLongestFrame = 255 + kOverhead;
 
   // As new but for the counts: what comes next has nothing to do with what came before.

@@ -17,7 +17,6 @@ constexpr Duration kSilence = std::chrono::seconds{1};
 constexpr int kPeriodsOfSilence = 3;
 // What a line brings in a third of a second, far more than between two polls; the rest comes later.
 constexpr std::size_t kMostBytesAPoll = 2048;
-constexpr std::int64_t kBitsOfByte = 10;
 // Packets in a row that it was not asked for: it has been switched off and on.
 constexpr int kOfAnotherStream = 3;
 // One or two of these may be a step; a row of them is a fault.
@@ -196,7 +195,7 @@ Duration Nav440::on_the_line(const Nav440Frame& frame) const noexcept {
     return Duration::zero();
   }
   const auto bytes = static_cast<std::int64_t>(frame.payload.size() + Nav440Framing::kOverhead);
-  return Duration{std::chrono::seconds{bytes * kBitsOfByte}} / start_up_.baud();
+  return Duration{std::chrono::seconds{bytes * Nav440Framing::kBitsOfByte}} / start_up_.baud();
 }
 
 Duration Nav440::silence_limit() const noexcept {

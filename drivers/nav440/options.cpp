@@ -14,7 +14,6 @@ namespace {
 
 // 100 Hz by the dividers 1, 2, 4, 5, 10, 20, 25 and 50.
 constexpr std::array<int, 8> kRates_hz{100, 50, 25, 20, 10, 5, 4, 2};
-constexpr int kBitsOfByte = 10;
 constexpr double kMostDeclination_deg = 180.0;
 constexpr double kMostLatency_s = 0.1;
 
@@ -91,7 +90,8 @@ int nav440::most_packets_hz(PacketType type, int baud) noexcept {
   while (payload < kLongestOfOurs && !may_be_long(type, static_cast<std::size_t>(payload))) {
     ++payload;
   }
-  return baud / (kBitsOfByte * (payload + static_cast<int>(Nav440Framing::kOverhead)));
+  return baud /
+         (Nav440Framing::kBitsOfByte * (payload + static_cast<int>(Nav440Framing::kOverhead)));
 }
 
 std::vector<std::string_view> nav440_settings() {

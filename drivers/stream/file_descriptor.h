@@ -5,9 +5,15 @@
 
 #include <unistd.h>
 
+#include <cstddef>
 #include <utility>
 
 namespace lodesman {
+
+// Of what read, write and their like return: an error has moved nothing.
+[[nodiscard]] constexpr std::size_t count_of(ssize_t result) noexcept {
+  return result > 0 ? static_cast<std::size_t>(result) : 0;
+}
 
 class FileDescriptor {
  public:

@@ -12,10 +12,6 @@
 namespace lodesman {
 namespace {
 
-[[nodiscard]] std::size_t count_of(ssize_t result) noexcept {
-  return result > 0 ? static_cast<std::size_t>(result) : 0;
-}
-
 struct Found {
   addrinfo* first = nullptr;
   Found() = default;

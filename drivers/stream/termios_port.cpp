@@ -4,14 +4,6 @@
 #include <unistd.h>
 
 namespace lodesman {
-namespace {
-
-[[nodiscard]] std::size_t count_of(ssize_t result) noexcept {
-  return result > 0 ? static_cast<std::size_t>(result) : 0;
-}
-
-}  // namespace
-
 OpenedPort TermiosPort::open(TtyClaim claim, int baud) {
   const int descriptor = claim.descriptor.value();
   if (!set_raw(descriptor) || !set_speed(descriptor, baud)) {

@@ -7,7 +7,7 @@
 namespace lodesman {
 namespace {
 
-constexpr Duration kPeriod = std::chrono::milliseconds{20};
+constexpr Duration kHeadingPeriod = std::chrono::milliseconds{20};
 constexpr double kAngleCount_rad = to_rad(360.0 / 65536.0);
 constexpr double kRateCount_rad_s = to_rad(1260.0 / 65536.0);
 constexpr double kMaxRateCount = 32767.0;
@@ -24,7 +24,8 @@ constexpr double kMaxRateCount = 32767.0;
 }  // namespace
 
 SimHeadingSensor::SimHeadingSensor(const Scenario& scenario, SimLink& link, bool like_nav440)
-    : feed_{link, link.heading_due, kPeriod, FaultSchedule{scenario.faults, FaultDevice::kAhrs}},
+    : feed_{link, link.heading_due, kHeadingPeriod,
+            FaultSchedule{scenario.faults, FaultDevice::kAhrs}},
       like_nav440_{like_nav440} {}
 
 Reading<Attitude> SimHeadingSensor::poll(Time now) noexcept {

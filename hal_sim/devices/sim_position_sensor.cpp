@@ -7,7 +7,7 @@ namespace lodesman {
 namespace {
 
 // Ours: what small receivers do (1-10 Hz).
-constexpr Duration kPeriod = std::chrono::milliseconds{200};
+constexpr Duration kFixPeriod = std::chrono::milliseconds{200};
 // NMEA's ddmm.mmmmm: 0.00001 minute, 2 cm of latitude.
 constexpr double kCountsPerDegree = 60.0 * 1e5;
 
@@ -18,7 +18,7 @@ constexpr double kCountsPerDegree = 60.0 * 1e5;
 }  // namespace
 
 SimPositionSensor::SimPositionSensor(const Scenario& scenario, SimLink& link)
-    : feed_{link, link.position_due, kPeriod,
+    : feed_{link, link.position_due, kFixPeriod,
             FaultSchedule{scenario.faults, FaultDevice::kPosition}},
       frame_{{scenario.environment.origin_latitude_deg, scenario.environment.origin_longitude_deg}},
       sigma_m_{scenario.position.gps_sigma_m},

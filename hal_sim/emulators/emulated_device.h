@@ -13,6 +13,8 @@
 
 namespace lodesman {
 
+inline constexpr std::int64_t kBitsAByte = 10;  // on a serial line: 8, a start and a stop
+
 // What a device says, and from when on: a burst of bytes that leaves it without a pause.
 struct Utterance {
   Time begins{};

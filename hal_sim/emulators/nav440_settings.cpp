@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "hal_sim/emulators/emulated_device.h"
+
 namespace lodesman::emulated {
 namespace {
 
@@ -17,7 +19,6 @@ constexpr std::array<std::uint16_t, 9> kDividers{0, 1, 2, 4, 5, 10, 20, 25, 50};
 constexpr std::array<int, 4> kBauds{9600, 19200, 38400, 57600};
 constexpr int kInternalRate_hz = 100;
 constexpr std::size_t kFrameOverhead = 7;
-constexpr std::size_t kBitsAByte = 10;
 constexpr std::uint16_t kBehaviourBits = 0x003F;
 // The four rotations of each axis that points down.
 constexpr std::array<std::uint16_t, 24> kOrientations{
@@ -60,7 +61,7 @@ int Nav440Settings::baud() const noexcept { return kBauds[at(kFieldBaud)]; }
 
 bool Nav440Settings::fits(std::size_t payload) const noexcept {
   const auto divider = static_cast<std::size_t>(at(kFieldDivider));
-  const std::size_t bits = (payload + kFrameOverhead) * kBitsAByte;
+  const std::size_t bits = (payload + kFrameOverhead) * static_cast<std::size_t>(kBitsAByte);
   return divider == 0 || bits * kInternalRate_hz <= static_cast<std::size_t>(baud()) * divider;
 }
 

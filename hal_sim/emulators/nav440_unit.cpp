@@ -22,7 +22,6 @@ constexpr std::array<std::uint16_t, 7> kDataPackets{
 constexpr Duration kResetPause = std::chrono::milliseconds{10};
 // What the unit holds for its line before it drops packets (ours).
 constexpr int kSendBuffer_bytes = 256;
-constexpr std::int64_t kBitsAByte = 10;
 
 // Orders of the magnetic calibration.
 constexpr std::uint16_t kCalibrateUntilStopped = 0x0009;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal_sim/emulators/thrust_output.h"
+
 namespace lodesman {
 namespace {
 
@@ -29,7 +31,6 @@ enum Command : std::uint8_t {
   kGetStatus = 90,
 };
 
-constexpr int kFullDuty = 32767;
 constexpr int kFull7 = 127;
 constexpr int kStop7 = 64;
 constexpr std::uint8_t kAcknowledge = 0xFF;

@@ -9,7 +9,6 @@ namespace {
 
 constexpr int kNeutralPulse_quarter_us = 6000;
 constexpr double kPulseStep_quarter_us = 15.0;  // 3.75 us a command
-constexpr double kFullDuty = 32767.0;
 constexpr double kStepsEachWay = 127.0;
 constexpr std::uint8_t kNeutralCommand = 128;
 
@@ -34,7 +33,7 @@ std::uint8_t thrust_command_of_pulse(std::uint16_t quarter_us) noexcept {
 }
 
 std::uint8_t thrust_command_of_duty(int duty) noexcept {
-  return command_of_steps(duty * (kStepsEachWay / kFullDuty));
+  return command_of_steps(duty * (kStepsEachWay / static_cast<double>(kFullDuty)));
 }
 
 EmulatedEsc::Pulse EmulatedEsc::kind_of(std::uint16_t quarter_us) noexcept {

@@ -9,6 +9,8 @@
 
 namespace lodesman {
 
+inline constexpr int kFullDuty = 32767;  // of a RoboClaw; astern the same, negative
+
 // [0, 255] the nearest; 128 for neutral and for no pulses. Each command byte's own pulse and duty
 // give that byte, but for 127, which is neutral as 128 is.
 [[nodiscard]] std::uint8_t thrust_command_of_pulse(std::uint16_t quarter_us) noexcept;

@@ -8,7 +8,6 @@ namespace lodesman {
 namespace {
 
 // A start bit, eight of data, a stop bit.
-constexpr std::int64_t kBitsAByte = 10;
 
 [[nodiscard]] Time up_to_multiple(Time at, Duration of) noexcept {
   if (of <= Duration::zero()) {

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "hal_sim/scenario/limits.h"
 #include "mid_level/base/geodesy.h"
 #include "mid_level/base/short_number.h"
 #include "mid_level/config/read_mission.h"
@@ -10,11 +11,8 @@
 namespace lodesman {
 namespace {
 
-// What a scenario may ask for (ours): far beyond any sensible run, and small enough that no sum
-// or square of it loses its meaning.
-constexpr double kMaxCoordinate_m = 1e5;
+// As limits.h has it, of what only a scenario as a whole has.
 constexpr double kMaxTimeLimit_s = 1e5;
-constexpr double kMaxSpeed_m_s = 10.0;
 constexpr double kMaxRadius_m = 100.0;
 constexpr std::size_t kMaxNameLength = 64;
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "hal_sim/scenario/limits.h"
 #include "hal_sim/scenario/scenario.h"
 
 namespace lodesman {
 namespace {
 
-constexpr double kMaxCoordinate_m = 1e5;
 constexpr double kMaxSize_m = 1e4;
 constexpr double kMinSize_m = 1e-3;  // smaller than any pixel, large enough to divide by
-constexpr double kMaxSpeed_m_s = 10.0;
 constexpr double kMaxTime_s = 1e5;
 constexpr double kCourseTolerance_m = 0.01;
 

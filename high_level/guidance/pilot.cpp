@@ -17,7 +17,7 @@ constexpr double kOutside_m = 0.02;  // a start nearer than this to a zone is pu
 constexpr double kSlightly_m = 0.4;  // no deeper in a zone it is beside the path, not astray
 constexpr double kBetter_m = 1.5;    // nearer to the goal by this is a better place to wait at
 constexpr int kAsksForBest = 10;     // pings on the way to one, before the goal is asked for again
-constexpr double kArrived_m = 0.8;   // so near to a place to wait at is there ...
+constexpr double kAtPlace_m = 0.8;   // so near to a place to wait at is there ...
 constexpr double kDrifted_m = 2.5;   // ... and so far from it no more
 
 [[nodiscard]] Vec centre_of(const Obstacle& shape) noexcept {
@@ -175,7 +175,7 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
   plan.course_rad = wrap_to_pi(route_rad + (aside ? choice.manoeuvre.offset_rad : 0.0));
   plan.speed_share = choice.manoeuvre.speed_share;
   const double left_m = (route_.end() - own.p_W).norm();
-  holding_ = stay_at_end && !aside && left_m < (holding_ ? kDrifted_m : kArrived_m);
+  holding_ = stay_at_end && !aside && left_m < (holding_ ? kDrifted_m : kAtPlace_m);
   if (holding_) {
     // It faces what it waits for, so that it sees when that is clear.
     const Vec goal = Vec{plan.goal_x_m, plan.goal_y_m} - own.p_W;

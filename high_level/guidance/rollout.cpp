@@ -9,7 +9,7 @@ namespace {
 
 using Vec = Eigen::Vector2d;
 
-constexpr double kArrived_m = 0.4;  // from the route's end
+constexpr double kAtRouteEnd_m = 0.4;  // from the route's end
 
 }  // namespace
 
@@ -32,7 +32,7 @@ Rollout::Rollout(const VehicleResponse& response, const Route& route, const OwnM
 void Rollout::sail(double part_s) noexcept {
   const Vec& p = motion_.position.xy_m;
   place_ = nearest_place(route_, p, place_, 6.0 * response_.look_ahead_m);
-  const bool at_end = place_.leg + 2 >= route_.count && (route_.end() - p).norm() < kArrived_m;
+  const bool at_end = place_.leg + 2 >= route_.count && (route_.end() - p).norm() < kAtRouteEnd_m;
   arrived_ = arrived_ || (at_end && !stay_at_end_);
   if (arrived_) {
     return;

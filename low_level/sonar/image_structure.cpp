@@ -6,14 +6,14 @@
 namespace lodesman {
 namespace {
 
-using Bytes = std::span<const std::uint8_t>;
+using ByteView = std::span<const std::uint8_t>;
 
 constexpr std::uint8_t kStartOfScan = 0xDA;
 constexpr std::uint8_t kEndOfImage = 0xD9;
 constexpr std::uint64_t kEndChunk = 0x49454E44;  // IEND
 
 // Big-endian; 0 beyond the end.
-[[nodiscard]] std::uint64_t number_at(Bytes file, std::size_t at, std::size_t size) noexcept {
+[[nodiscard]] std::uint64_t number_at(ByteView file, std::size_t at, std::size_t size) noexcept {
   std::uint64_t number = 0;
   for (std::size_t i = at; i < at + size; ++i) {
     number = number << 8U | (i < file.size() ? file[i] : 0U);
@@ -21,8 +21,8 @@ constexpr std::uint64_t kEndChunk = 0x49454E44;  // IEND
   return number;
 }
 
-[[nodiscard]] bool is_jpeg(Bytes file) noexcept { return number_at(file, 0, 2) == 0xFFD8; }
-[[nodiscard]] bool is_png(Bytes file) noexcept { return number_at(file, 0, 4) == 0x89504E47; }
+[[nodiscard]] bool is_jpeg(ByteView file) noexcept { return number_at(file, 0, 2) == 0xFFD8; }
+[[nodiscard]] bool is_png(ByteView file) noexcept { return number_at(file, 0, 4) == 0x89504E47; }
 
 // Frame headers are the markers C0 to CF but for three that define tables.
 [[nodiscard]] bool begins_frame(std::uint8_t marker) noexcept {
@@ -36,7 +36,7 @@ constexpr std::uint64_t kEndChunk = 0x49454E44;  // IEND
 // From marker to marker, over whatever lies between them, as the decoder goes. Calls
 // visit(marker, place) for each, until it says that it has seen enough.
 template <class Visit>
-void walk_jpeg(Bytes file, Visit visit) noexcept {
+void walk_jpeg(ByteView file, Visit visit) noexcept {
   for (std::size_t at = 2; at + 1 < file.size();) {
     const std::uint8_t marker = file[at + 1];
     if (file[at] != 0xFF || marker == 0xFF || marker == 0x00) {
@@ -50,7 +50,7 @@ void walk_jpeg(Bytes file, Visit visit) noexcept {
   }
 }
 
-[[nodiscard]] std::uint64_t jpeg_pixels(Bytes file) noexcept {
+[[nodiscard]] std::uint64_t jpeg_pixels(ByteView file) noexcept {
   std::uint64_t most = 0;
   walk_jpeg(file, [&](std::uint8_t marker, std::size_t at) {
     if (begins_frame(marker)) {
@@ -62,7 +62,7 @@ void walk_jpeg(Bytes file, Visit visit) noexcept {
 }
 
 // The end marker after a scan: before any there is no picture that could end.
-[[nodiscard]] bool jpeg_is_whole(Bytes file) noexcept {
+[[nodiscard]] bool jpeg_is_whole(ByteView file) noexcept {
   bool scanned = false;
   bool ended = false;
   walk_jpeg(file, [&](std::uint8_t marker, std::size_t /*at*/) {
@@ -74,7 +74,7 @@ void walk_jpeg(Bytes file, Visit visit) noexcept {
 }
 
 // From chunk to chunk: length, name, contents, check.
-[[nodiscard]] bool png_is_whole(Bytes file) noexcept {
+[[nodiscard]] bool png_is_whole(ByteView file) noexcept {
   for (std::size_t at = 8; at + 12 <= file.size(); at += 12 + number_at(file, at, 4)) {
     if (number_at(file, at + 4, 4) == kEndChunk) {
       return true;
@@ -85,7 +85,7 @@ void walk_jpeg(Bytes file, Visit visit) noexcept {
 
 }  // namespace
 
-std::uint64_t declared_pixels(Bytes file) noexcept {
+std::uint64_t declared_pixels(ByteView file) noexcept {
   if (is_jpeg(file)) {
     return jpeg_pixels(file);
   }
@@ -93,7 +93,7 @@ std::uint64_t declared_pixels(Bytes file) noexcept {
   return is_png(file) ? number_at(file, 16, 4) * number_at(file, 20, 4) : 0;
 }
 
-bool is_whole(Bytes file) noexcept {
+bool is_whole(ByteView file) noexcept {
   return is_jpeg(file) ? jpeg_is_whole(file) : is_png(file) && png_is_whole(file);
 }
 

@@ -69,7 +69,7 @@ rm -rf "$copy"
 mkdir -p "$copy/tree" "$copy/build"
 git -C "$root" ls-files -z | tar -C "$root" --null -T - -cf - | tar -C "$copy/tree" -xf -
 quiet_or_tell cmake -S "$copy/tree" -B "$copy/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_CXX_FLAGS_RELEASE=-O1
+  -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DCMAKE_UNITY_BUILD=ON
 # shellcheck disable=SC2086  # names of targets
 quiet_or_tell nice ninja -C "$copy/build" $tests
 for test in $tests; do
