@@ -9,7 +9,7 @@ test_packages="catch2"
 # For tests/bench, which is built with -DLODESMAN_BENCH=ON.
 bench_packages="libbenchmark-dev"
 # For the presets asan, tsan, fuzz and tidy, and for the layout of the sources.
-clang_packages="clang libclang-rt-14-dev clang-tidy clang-format-14"
+clang_packages="clang lld libclang-rt-14-dev clang-tidy clang-format-14"
 # For tests/system/gpsd.cpp and, with gpsfake, gpsd_tracks.cpp, which are skipped without them. No
 # part of test_packages: gpsd's udev rules hand USB serial adapters to it, which it probes, on
 # whatever machine it is installed.

@@ -57,7 +57,7 @@ void run_all(std::string_view name) {
     const std::string file = files[i].filename().string();
     run(*target, seeds[i], file);
     std::mt19937_64 chance{i};
-    for (std::size_t n = 0; n < target->mutations; ++n) {
+    for (std::size_t n = 0; n < target->mutations / LODESMAN_ONE_OF_MUTATIONS; ++n) {
       run(*target, mutated(seeds[i], seeds, chance), file + ", mutation " + std::to_string(n));
     }
   }
