@@ -5,8 +5,10 @@
 
 #include "high_level/mission/token_file.h"
 #include "tests/support/catch.h"
+#include "tests/support/text_of.h"
 #include "tests/system/boat.h"
 #include "tests/system/listening_port.h"
+#include "tests/system/program.h"
 
 using namespace lodesman;
 using namespace lodesman::testing;
@@ -46,6 +48,15 @@ class HandStartedBoat {
   [[nodiscard]] std::unique_ptr<ChildProcess> call(std::vector<std::string> words) const {
     words.insert(words.end(), {"--port", std::to_string(port_), "--quiet"});
     return std::make_unique<ChildProcess>("lodesman", words);
+  }
+  // Follows a mission, and writes what it says into that file.
+  [[nodiscard]] std::unique_ptr<Program> follow(const std::string& mission,
+                                                const std::string& file) const {
+    return std::make_unique<Program>(
+        program("lodesman"),
+        std::vector<std::string>{"start", "--mission", mission, "--follow", "--port",
+                                 std::to_string(port_)},
+        [&] { redirect(STDERR_FILENO, file.c_str(), O_WRONLY | O_CREAT | O_TRUNC); });
   }
   [[nodiscard]] int tell(const std::vector<std::string>& words) const {
     const auto teller = call(words);
@@ -141,4 +152,20 @@ TEST_CASE("missions: a commander that dies is missed, and the mission does what 
   CHECK(boat.mission().cause == MissionCause::kLinkLost);
   REQUIRE(boat.is_obeyed({"resume"}));
   CHECK(boat.mission().state == MissionState::kUnderWay);
+}
+
+TEST_CASE("missions: who follows one is told why it holds, where that was no order", "[system]") {
+  HandStartedBoat boat{"cause"};
+  const std::string mission =
+      boat.file("m.toml", "goal_m = [0.0, 50.0]\nlink_lost = \"hold\"\nlink_lost_after_s = 1.5\n");
+  REQUIRE(eventually([&] { return boat.tell({"goto", "0,50"}) == 0; }));
+  const std::string said = boat.file("said.txt", "");
+  const auto commander = boat.follow(mission, said);
+  REQUIRE(eventually([&] { return boat.mission().mission >= 3; }));
+  kill(commander->pid(), SIGSTOP);
+  CHECK(boat.becomes(MissionState::kHolding));
+  kill(commander->pid(), SIGCONT);
+  CHECK(eventually([&] { return text_of(said).find("holding (link_lost)") != std::string::npos; }));
+  CHECK(text_of(said).find("mission: under_way\n") != std::string::npos);
+  kill(commander->pid(), SIGTERM);
 }

@@ -23,6 +23,13 @@ namespace {
 constexpr Duration kHeartbeatPeriod = std::chrono::seconds{1};
 constexpr std::size_t kMaxMissionText = 32 * 1024;
 
+// "aborted", and why where that was no order.
+[[nodiscard]] std::string state_and_cause(const std::string& state, const std::string& status) {
+  const auto said = nlohmann::json::parse(status, nullptr, false);
+  const std::string cause = said.is_object() ? said.value("cause", "order") : "order";
+  return cause == "order" ? state : fmt::format("{} ({})", state, cause);
+}
+
 // Stays as the mission's commander: its heartbeat is the link that the mission may ask for.
 [[nodiscard]] int follow(const nlohmann::json& start, const OperatorOptions& options) {
   const Boat boat = find_boat(options);
@@ -51,7 +58,7 @@ constexpr std::size_t kMaxMissionText = 32 * 1024;
     }
     const std::string now = beat.value("state", "");
     if (now != state && !options.common.quiet) {
-      fmt::print(stderr, "mission: {}\n", now);
+      fmt::print(stderr, "mission: {}\n", state_and_cause(now, ask({{"command", "status"}})));
     }
     state = now;
     std::this_thread::sleep_for(kHeartbeatPeriod);
