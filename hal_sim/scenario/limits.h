@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a scenario may ask for (ours): far beyond any sensible run, and small enough that no sum or
-// square of it loses its meaning.
+// square of it loses its meaning. Constants; any thread.
 #pragma once
 
 namespace lodesman {

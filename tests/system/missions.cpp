@@ -161,11 +161,13 @@ TEST_CASE("missions: who follows one is told why it holds, where that was no ord
   REQUIRE(eventually([&] { return boat.tell({"goto", "0,50"}) == 0; }));
   const std::string said = boat.file("said.txt", "");
   const auto commander = boat.follow(mission, said);
-  REQUIRE(eventually([&] { return boat.mission().mission >= 3; }));
+  const auto says = [&](const char* words) {
+    return eventually([&] { return text_of(said).find(words) != std::string::npos; });
+  };
+  REQUIRE(says("mission: under_way\n"));
   kill(commander->pid(), SIGSTOP);
   CHECK(boat.becomes(MissionState::kHolding));
   kill(commander->pid(), SIGCONT);
-  CHECK(eventually([&] { return text_of(said).find("holding (link_lost)") != std::string::npos; }));
-  CHECK(text_of(said).find("mission: under_way\n") != std::string::npos);
+  CHECK(says("mission: holding (link_lost)\n"));
   kill(commander->pid(), SIGTERM);
 }
