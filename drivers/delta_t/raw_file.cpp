@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/delta_t/raw_file.h"
 
-#include <algorithm>
-
 #include "drivers/delta_t/head.h"
 #include "mid_level/base/heading.h"
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/delta_t/record.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "mid_level/base/heading.h"
 #include "mid_level/messages/sonar.h"

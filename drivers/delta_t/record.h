@@ -22,7 +22,9 @@ inline constexpr std::size_t kHeaderBytes = 256;
 // That ranges in a record are reckoned by.
 inline constexpr double kNominalSoundSpeed_m_s = 1500.0;
 
-enum class RecordKind : std::uint8_t { kImage, kProfile };  // 83B, 83P// Up to the first zero.
+enum class RecordKind : std::uint8_t { kImage, kProfile };  // 83B, 83P
+
+// Up to the first zero.
 template <std::size_t kSize>
 [[nodiscard]] constexpr std::string_view text_of(const Text<kSize>& text) noexcept {
   const std::string_view whole{text.data(), text.size()};

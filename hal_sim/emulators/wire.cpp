@@ -7,8 +7,6 @@
 namespace lodesman {
 namespace {
 
-// A start bit, eight of data, a stop bit.
-
 [[nodiscard]] Time up_to_multiple(Time at, Duration of) noexcept {
   if (of <= Duration::zero()) {
     return at;

@@ -23,11 +23,16 @@ namespace {
 constexpr Duration kHeartbeatPeriod = std::chrono::seconds{1};
 constexpr std::size_t kMaxMissionText = 32 * 1024;
 
-// "aborted", and why where that was no order.
+// "aborted", and why where that was no order and `status`, asked for later, is of the same state.
 [[nodiscard]] std::string state_and_cause(const std::string& state, const std::string& status) {
   const auto said = nlohmann::json::parse(status, nullptr, false);
-  const std::string cause = said.is_object() ? said.value("cause", "order") : "order";
-  return cause == "order" ? state : fmt::format("{} ({})", state, cause);
+  const auto word = [&](const char* key) {
+    const auto at = said.find(key);
+    return at != said.end() && at->is_string() ? at->get<std::string>() : std::string{};
+  };
+  const std::string cause = word("cause");
+  const bool tells = word("state") == state && !cause.empty() && cause != "order";
+  return tells ? fmt::format("{} ({})", state, cause) : state;
 }
 
 // Stays as the mission's commander: its heartbeat is the link that the mission may ask for.
