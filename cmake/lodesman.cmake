@@ -1,6 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # How every room, program and test of this project is compiled, said once.
 
+# With a sanitizer all is several times as slow, and malloc is the sanitizer's own.
+set(LODESMAN_SANITIZED OFF)
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  set(LODESMAN_SANITIZED ON)
+endif()
+
 add_library(lodesman_flags INTERFACE)
 target_include_directories(lodesman_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(lodesman_flags INTERFACE

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "deploy/boat/program_options.h"
+#include "deploy/boat/common_options.h"
 #include "drivers/hal/thrust_shape.h"
 #include "high_level/tasks/high_level.h"
 #include "low_level/tasks/low_level.h"

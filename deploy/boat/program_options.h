@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program is told on its command line about its configuration. The main thread.
+// How a program's command line fills its CommonOptions. The main thread.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,16 +7,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
+
+#include "deploy/boat/common_options.h"
 
 namespace lodesman {
-
-struct CommonOptions {
-  bool json = false;  // exactly one JSON document (or JSON lines) on stdout
-  bool quiet = false;
-  std::vector<std::string> config_files;  // overlays, in order
-  std::vector<std::string> sets;          // section.key=value
-};
 
 inline void add_configuration_options(CLI::App& command, CommonOptions& options) {
   // One value an option: what follows it is the command's own.
@@ -26,24 +20,6 @@ inline void add_configuration_options(CLI::App& command, CommonOptions& options)
   command.add_option("--set", options.sets, "Override one configuration value (repeatable)")
       ->type_name("SECTION.KEY=VALUE")
       ->allow_extra_args(false);
-}
-
-// A text as a TOML string, whatever stands in it.
-[[nodiscard]] inline std::string toml_string(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-    }
-    if (code < 0x20 || code == 0x7f) {
-      constexpr const char* kDigits = "0123456789ABCDEF";
-      quoted += std::string{"\\u00"} + kDigits[code >> 4U] + kDigits[code & 15U];
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + "\"";
 }
 
 // An option of its own for a key that holds a text.

@@ -150,4 +150,6 @@ TEST_CASE("forgeries: what is not sane leaves the commands as if it had not been
   require_equal_twins("default");
 }
 
-TEST_CASE("forgeries: and so in the paper's profile", "[system]") { require_equal_twins("paper"); }
+TEST_CASE("forgeries: and so in the paper's profile", "[system][plain]") {
+  require_equal_twins("paper");
+}

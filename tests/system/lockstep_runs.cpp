@@ -133,7 +133,7 @@ TEST_CASE("lock-step: a heading that falls silent stops the boat, and it goes on
 }
 
 TEST_CASE("lock-step: what cannot be reached is waited for at a place held against the current",
-          "[system]") {
+          "[system][plain]") {
   for (const char* current : {"[0.0, -0.1]", "[0.1, 0.0]", "[0.0, 0.1]"}) {
     // Something rests on the goal.
     const auto text = TomlDocument::from_text(

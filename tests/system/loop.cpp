@@ -77,17 +77,17 @@ void require_twins(const Sets& looped) {
 }  // namespace
 
 TEST_CASE("loop: on a line without delay, plans and helm are those of a simulated AHRS",
-          "[system]") {
+          "[system][plain]") {
   require_twins({kInstantHeading});
 }
 
-TEST_CASE("loop: and so with a Maestro beside it", "[system]") {
+TEST_CASE("loop: and so with a Maestro beside it", "[system][plain]") {
   require_twins({kInstantHeading, kInstantMaestro});
 }
 
 // A datagram is stamped when it is taken, which is a moment after the world's step.
 TEST_CASE("loop: without delay, a Delta T brings the boat the way of a simulated sonar",
-          "[system]") {
+          "[system][plain]") {
   for (const char* profile : {"default", "paper"}) {
     for (const char* scenario : {"paper-static", "paper-moving"}) {
       CAPTURE(profile, scenario);
@@ -204,7 +204,7 @@ namespace {
 // which side the paper's profile takes is decided by less than a line's delay, and by a jitter of 5
 // ms too where nothing but simulated devices is aboard.
 TEST_CASE("loop: on a line of its real speed the boat arrives as well, on the same side",
-          "[system]") {
+          "[system][plain]") {
   for (const char* profile : {"default", "paper"}) {
     for (const char* scenario : {"paper-static", "paper-moving"}) {
       const Sailed simulated = sail(profile, scenario, {});
@@ -298,7 +298,7 @@ namespace {
 }  // namespace
 
 TEST_CASE("loop: the same scenario gives the same recording, with jitter and faults too",
-          "[system]") {
+          "[system][plain]") {
   const std::string faults = fault_table("ahrs", "flip", "rate = 0.01\n") +
                              fault_table("sonar", "drop", "rate = 0.1\n") +
                              fault_table("position", "flip", "rate = 0.01\n");
@@ -325,7 +325,7 @@ TEST_CASE("loop: the same scenario gives the same recording, with jitter and fau
 // A servo box that has forgotten what it was told is tried anew for longer than thrusters stay
 // armed without one, so what is left is to say so; the same where it is gone for that long.
 TEST_CASE("loop: twenty seconds of a fault cost no collision, and the run says how it ended",
-          "[system]") {
+          "[system][plain]") {
   const struct {
     std::string fault;
     bool arrives;

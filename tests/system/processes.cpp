@@ -45,7 +45,7 @@ double neutral_after_kill_s(Boat& boat, std::mt19937& random) {
 TEST_CASE(
     "processes: a killed high level leaves the thrusters neutral within 0.5 s, and its "
     "successor sails on",
-    "[system]") {
+    "[system][plain]") {
   const Scratch scratch{"kill-high"};
   Boat boat{scratch};
   std::mt19937 random{5};

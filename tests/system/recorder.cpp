@@ -55,8 +55,14 @@ struct Recorder {
   }
   // Waits until it has what a boat under way publishes.
   [[nodiscard]] bool is_at_work() const {
-    return eventually(
-        [&] { return fs::exists(part) && contents_of(part).count("raw/vehicle_state") > 0; });
+    return eventually([&] {
+      if (!fs::exists(part)) {
+        return false;
+      }
+      const Contents contents = contents_of(part);
+      return contents.count("raw/vehicle_state") > 0 &&
+             contents.numbers.size() >= kChannelsUnderWay;
+    });
   }
 
   fs::path part;

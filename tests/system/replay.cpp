@@ -20,7 +20,7 @@ constexpr std::uint32_t kInTheMiddle = 400;  // a number that each channel in qu
 }  // namespace
 
 TEST_CASE("replay: one parameter that is changed shows in the first decision that goes by it",
-          "[system]") {
+          "[system][plain]") {
   const Scratch scratch{"replay"};
   const fs::path paper = sailed(scratch, "paper-static", "paper");
 
@@ -84,7 +84,7 @@ TEST_CASE("replay: one field of one publication that is changed is found there a
 }
 
 TEST_CASE("replay: what a task saw and is not in the recording is said, and not judged",
-          "[system]") {
+          "[system][plain]") {
   const Scratch scratch{"replay"};
   const fs::path file = sailed(scratch, "paper-static", "default");
   const fs::path lacking = scratch.file("lacking.mcap");

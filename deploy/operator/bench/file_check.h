@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "deploy/boat/program_options.h"
+#include "deploy/boat/common_options.h"
 
 namespace lodesman::cli {
 

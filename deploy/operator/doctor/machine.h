@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "deploy/boat/program_options.h"
+#include "deploy/boat/common_options.h"
 
 namespace lodesman::cli {
 

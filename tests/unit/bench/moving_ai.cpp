@@ -141,13 +141,13 @@ void require_published_lengths(const std::string& name) {
 // One case a file, so that they run side by side: an unoptimised build takes its time.
 TEST_CASE("cli: published lengths of arena", "[cli]") { require_published_lengths("arena"); }
 TEST_CASE("cli: published lengths of den011d", "[cli]") { require_published_lengths("den011d"); }
-TEST_CASE("cli: published lengths of 8room_000", "[cli]") {
+TEST_CASE("cli: published lengths of 8room_000", "[cli][plain]") {
   require_published_lengths("8room_000");
 }
-TEST_CASE("cli: published lengths of maze512-4-0", "[cli]") {
+TEST_CASE("cli: published lengths of maze512-4-0", "[cli][plain]") {
   require_published_lengths("maze512-4-0");
 }
-TEST_CASE("cli: published lengths of random512-10-0", "[cli]") {
+TEST_CASE("cli: published lengths of random512-10-0", "[cli][plain]") {
   require_published_lengths("random512-10-0");
 }
 

@@ -84,7 +84,7 @@ TEST_CASE("memory order: no value is torn, lost or out of turn in any way that C
 }
 
 TEST_CASE("memory order: without any one acquire or release something goes wrong",
-          "[mid_level][blackboard]") {
+          "[mid_level][blackboard][plain]") {
   for (const Needed& needed : kNeeded) {
     INFO(needed.what_for);
     CHECK(std::any_of(kStories.begin(), kStories.end(), [&](const Story& story) {

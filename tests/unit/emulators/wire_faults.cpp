@@ -145,7 +145,7 @@ TEST_CASE("wire faults: a cut moves no flip", "[hal_sim][emulators]") {
   CHECK(shorter < 130);
 }
 
-TEST_CASE("wire faults: bursts come in bad spells", "[hal_sim][emulators]") {
+TEST_CASE("wire faults: bursts come in bad spells", "[hal_sim][emulators][plain]") {
   EmulatedWire wire{"test", 1};
   wire.begin_fault(ahrs_fault(FaultKind::kBurst, 0.3), at_ms(0));
   // A byte a millisecond for three hours: 20 ms of every 10.02 s are bad.
@@ -307,7 +307,7 @@ TEST_CASE("wire faults: unplugged now and then, for 0.1 to 5 s", "[hal_sim][emul
   CHECK(static_cast<double>(again) / count < 0.14);
 }
 
-TEST_CASE("wire faults: silent now and then, for 50 ms to 30 s", "[hal_sim][emulators]") {
+TEST_CASE("wire faults: silent now and then, for 50 ms to 30 s", "[hal_sim][emulators][plain]") {
   const Absences all = absences(ahrs_fault(FaultKind::kHang, 1.0), 0.0, true);
   CHECK(all.away_s.size() > 1150);  // 1 a minute of what is left of the day
   CHECK(all.away_s.size() < 1440);

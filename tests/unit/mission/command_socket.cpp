@@ -242,7 +242,7 @@ TEST_CASE("command socket: a session that sends without end leaves the others th
 }
 
 TEST_CASE("command socket: it goes on when the process has no descriptors left",
-          "[high_level][mission]") {
+          "[high_level][mission][plain]") {
   const pid_t child = fork();
   if (child == 0) {
     // Clients and socket in one process: the clients are made first, then all is used up.

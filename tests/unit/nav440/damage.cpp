@@ -153,7 +153,8 @@ DamageCounts damaged_stream(nav440::PacketType type, double share, std::uint64_t
   return stream.counts();
 }
 
-TEST_CASE("nav440: H7: of damaged frames none passes both gates with another heading", "[nav440]") {
+TEST_CASE("nav440: H7: of damaged frames none passes both gates with another heading",
+          "[nav440][plain]") {
   constexpr std::uint64_t kFrames = 1'000'000;
   for (const double share : {0.01, 0.1}) {
     const DamageCounts counts = damaged_stream(nav440::kA1, share, kFrames);

@@ -139,7 +139,7 @@ TEST_CASE("file series: a chunk is on the disk within a second of its first mess
 }
 
 TEST_CASE("file series: a large or old file is followed by another, which says the mission again",
-          "[recording]") {
+          "[recording][plain]") {
   Shelf shelf;
   shelf.options.rotate_bytes = 60'000;
   shelf.options.rotate_after = std::chrono::minutes{1};
