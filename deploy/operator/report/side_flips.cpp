@@ -49,6 +49,13 @@ Place wall_point_nearest(const Obstacle& wall, const std::vector<Place>& path) {
   return nearest;
 }
 
+// What of an obstacle counts for a path.
+Place place_for(const std::vector<Place>& path, const Obstacle& obstacle) {
+  return obstacle.shape != ObstacleShape::kEllipse
+             ? wall_point_nearest(obstacle, path)
+             : Place{obstacle.centre_x_m, obstacle.centre_y_m};
+}
+
 bool is_ahead_and_near(const PlanRecord& plan, const Place& place) {
   const double heading_rad = plan.start_heading_deg * kRadPerDeg;
   const double dx_m = place[0] - plan.start_m[0];
@@ -70,6 +77,20 @@ double swept_rad(const std::vector<Place>& path, const Place& place) {
   return sum_rad;
 }
 
+// Whether who sails one path and comes back by the other has gone round a place.
+bool enclose(const std::vector<Place>& one, const std::vector<Place>& other, const Place& place) {
+  std::vector<Place> round = one;
+  round.insert(round.end(), other.rbegin(), other.rend());
+  round.push_back(one.front());
+  return std::abs(swept_rad(round, place)) > std::numbers::pi;
+}
+
+bool lies_between(const std::vector<Place>& one, const std::vector<Place>& other,
+                  const Obstacle& obstacle) {
+  return enclose(one, other, place_for(one, obstacle)) ||
+         enclose(one, other, place_for(other, obstacle));
+}
+
 }  // namespace
 
 PassingSide passing_side(const PlanRecord& plan, const Obstacle& obstacle) {
@@ -78,8 +99,7 @@ PassingSide passing_side(const PlanRecord& plan, const Obstacle& obstacle) {
       (is_wall && obstacle.vertex_count == 0)) {
     return PassingSide::kNone;
   }
-  const Place place = is_wall ? wall_point_nearest(obstacle, plan.path_m)
-                              : Place{obstacle.centre_x_m, obstacle.centre_y_m};
+  const Place place = place_for(plan.path_m, obstacle);
   if (!is_ahead_and_near(plan, place)) {
     return PassingSide::kNone;
   }
@@ -98,15 +118,17 @@ void SideFlipCounter::add(const PlanRecord& plan) {
     return;
   }
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-    const PassingSide now = obstacles_[i].exists(plan.captured_s)
-                                ? passing_side(plan, obstacles_[i].at(plan.captured_s))
-                                : PassingSide::kNone;
-    if (now != before_[i] && now != PassingSide::kNone && before_[i] != PassingSide::kNone) {
+    const Obstacle obstacle = obstacles_[i].at(plan.captured_s);
+    const PassingSide now =
+        obstacles_[i].exists(plan.captured_s) ? passing_side(plan, obstacle) : PassingSide::kNone;
+    const bool both = now != PassingSide::kNone && before_[i] != PassingSide::kNone;
+    if (both && now != before_[i] && lies_between(plan.path_m, path_before_, obstacle)) {
       ++flips_.count;
       flips_.first_s = flips_.first_s.value_or(plan.t_s);
     }
     before_[i] = now;
   }
+  path_before_ = plan.path_m;
 }
 
 SideFlips side_flips(const std::vector<PlanRecord>& plans,

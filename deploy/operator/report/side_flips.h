@@ -3,6 +3,7 @@
 // Fig. 5a-b, and a sign of a restless planner. Pure functions and a plain value; any one thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -29,8 +30,9 @@ struct SideFlips {
 };
 
 // Counts while the plans come. Over consecutive found plans (those without a path between them do
-// not separate them), each obstacle for itself: left to right or right to left counts, from or to
-// kNone does not.
+// not separate them), each obstacle for itself: left to right or right to left counts where what
+// lies between both paths holds some of the obstacle, from or to kNone does not. So nothing counts
+// where a path stays and something crosses it, or where it leads through a gap of one wall.
 class SideFlipCounter {
  public:
   explicit SideFlipCounter(std::vector<MovingObstacle> obstacles);
@@ -42,6 +44,7 @@ class SideFlipCounter {
  private:
   std::vector<MovingObstacle> obstacles_;
   std::vector<PassingSide> before_;
+  std::vector<std::array<double, 2>> path_before_;
   SideFlips flips_;
 };
 

@@ -109,14 +109,34 @@ TEST_CASE("side_flips: each obstacle is counted for itself", "[report]") {
   CHECK(side_flips({found(1, kLeft), found(2, between)}, two).count == 1);
 }
 
-TEST_CASE("side_flips: an obstacle counts where it was at the plan's capture", "[report]") {
+TEST_CASE("side_flips: a path that stays while something crosses it is no change of mind",
+          "[report]") {
   MovingObstacle crossing = testing::circle_at(-3, 10, 0.5, 1);
   crossing.velocity_x_m_s = 1.0;
-  // The same straight path, the obstacle goes from its left to its right.
-  const auto flips = side_flips({found(1, kStraight), found(6, kStraight)}, {crossing});
-  CHECK(flips.count == 1);
-  crossing.vanishes_at_s = 5.0;
   CHECK(side_flips({found(1, kStraight), found(6, kStraight)}, {crossing}).count == 0);
+  // Where it is by then, the new path goes by it on the other side than the old one would have.
+  const auto dodged = side_flips({found(1, {{0, 0}, {-4, 10}, {0, 20}}), found(3, kRight)},
+                                 {testing::circle_at(0, 10, 0.5, 1)});
+  CHECK(dodged.count == 1);
+  crossing.vanishes_at_s = 2.0;
+  CHECK(side_flips({found(1, kLeft), found(6, kRight)}, {crossing}).count == 0);
+}
+
+TEST_CASE("side_flips: between the ends of one wall there is one way", "[report]") {
+  const std::vector<MovingObstacle> ring{
+      testing::wall_of(ObstacleShape::kPolyline,
+                       {{-1.2, 10}, {-20, 10}, {-20, -10}, {20, -10}, {20, 10}, {1.2, 10}}, 1)};
+  const auto flips =
+      side_flips({found(1, {{0, 0}, {-0.1, 10}, {0, 20}}), found(2, {{0, 0}, {0.1, 10}, {0, 20}}),
+                  found(3, {{0, 0}, {-0.1, 10}, {0, 20}})},
+                 ring);
+  CHECK(flips.count == 0);
+  // Round the one end of a wall, and then round the other.
+  const std::vector<MovingObstacle> wall{
+      testing::wall_of(ObstacleShape::kPolyline, {{-3, 10}, {9, 10}}, 1)};
+  CHECK(side_flips({found(1, {{0, 0}, {-5, 10}, {0, 20}}), found(2, {{0, 0}, {10.5, 10}, {0, 20}})},
+                   wall)
+            .count == 1);
 }
 
 TEST_CASE("side_flips: the sample run changes side once, after 26 s", "[report]") {
