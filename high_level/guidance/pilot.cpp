@@ -19,6 +19,8 @@ constexpr double kBetter_m = 1.5;    // nearer to the goal by this is a better p
 constexpr int kAsksForBest = 10;     // pings on the way to one, before the goal is asked for again
 constexpr double kAtPlace_m = 0.8;   // so near to a place to wait at is there ...
 constexpr double kDrifted_m = 2.5;   // ... and so far from it no more
+constexpr double kClose_m = 4.0;     // so near to a goal that zones made room for it is slow
+constexpr double kFar_m = 0.95 * kPathReach_m;  // farther goals are asked for on the way
 
 [[nodiscard]] Vec centre_of(const Obstacle& shape) noexcept {
   if (shape.shape == ObstacleShape::kEllipse) {
@@ -29,6 +31,12 @@ constexpr double kDrifted_m = 2.5;   // ... and so far from it no more
     centre += Vec{shape.vertices[i].x_m, shape.vertices[i].y_m} / shape.vertex_count;
   }
   return centre;
+}
+
+// A goal, or where the straight way to one that is far comes through.
+[[nodiscard]] Vec within_reach(const Vec& from, const Vec& goal) noexcept {
+  const double distance_m = (goal - from).norm();
+  return distance_m > kFar_m ? from + kFar_m / distance_m * (goal - from) : goal;
 }
 
 // Along the axis that it is the least known on.
@@ -51,6 +59,7 @@ void Pilot::start() noexcept {
   side_count_ = 0;
   holding_ = false;
   best_.reset();
+  route_.clear();
 }
 
 void Pilot::keep_sides_of(const PathRequest& last) noexcept {
@@ -95,9 +104,9 @@ OwnMotion Pilot::when_it_takes_effect(Time now, const VehicleState& state) const
 
 void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const WorldPoint& goal,
                 bool stay, PathRequest& request) noexcept {
-  stay_ = stay;
   if (goal.xy_m != best_for_W_) {
-    best_.reset();  // another waypoint, or a place to hold: it stood for the last goal
+    best_.reset();  // another waypoint, or a place to hold: they stood for the last goal
+    route_.clear();
     best_for_W_ = goal.xy_m;
   }
   const OwnMotion own = when_it_takes_effect(now, state);
@@ -107,7 +116,9 @@ void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const
   make_zones(options_.zones, options_.response.model, tracks, now, own_W_,
              options_.response.cruise.speed_m_s, request, own.place_sigma_m);
   Vec start = own_W_;
-  Vec end = goal.xy_m;
+  Vec end = within_reach(start, goal.xy_m);
+  far_ = end != goal.xy_m;
+  stay_ = stay && !far_;
   escaping_ = false;
   goal_moved_ = false;
   if (const double clear_m = zone_clearance_m(request, start); clear_m < kOutside_m) {
@@ -117,6 +128,7 @@ void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const
     }
   }
   asked_for_best_ = asks_for_best();
+  goal_is_close_ = !asked_for_best_ && make_room(request, end);
   if (asked_for_best_) {
     end = *best_;
   } else if (zone_clearance_m(request, end) < 0.0) {
@@ -124,7 +136,7 @@ void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const
     const double room_m = options_.response.hull_half_length_m - options_.zones.hull_radius_m;
     if (const auto free = nearest_free(request, end, start, std::max(kOutside_m, room_m))) {
       end = *free;
-      goal_moved_ = true;
+      goal_moved_ = !far_;
     }
   }
   request.start_x_m = start.x();
@@ -149,24 +161,17 @@ void Pilot::ask_for_sides(PathRequest& request) const noexcept {
 
 void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const VehicleState& state,
                    Plan& plan) noexcept {
-  const bool best_kept = keeps_best(path);
-  if (!best_kept) {
-    make_route(path);
-  }
-  if (path.reason == PathReason::kFound) {
-    remember_sides(route_);
-  }
-  const bool stay_at_end =
-      stay_ || goal_moved_ || asked_for_best_ || path.reason != PathReason::kFound;
-  const double share = path.narrow ? options_.narrow_speed_share : 1.0;
+  take_route(path);
   const OwnMotion own = when_it_takes_effect(now, state);
-  const auto& choice = chooser_.choose(now, own, route_, tracks, share, stay_at_end);
+  plan.narrow = path.narrow || (goal_is_close_ && (route_.end() - own.p_W).norm() < kClose_m);
+  const double share = plan.narrow ? options_.narrow_speed_share : 1.0;
+  const auto& choice = chooser_.choose(now, own, route_, tracks, share, stay_at_end_);
   plan.waypoint_count = 0;
   for (std::uint32_t i = 0; i < choice.way.count && plan.waypoint_count < kMaxWaypoints; ++i) {
     plan.waypoints[plan.waypoint_count++] = {choice.way.points[i].x(), choice.way.points[i].y()};
   }
   plan.source = WaypointSource::kCurrent;
-  plan.stay_at_end = stay_at_end;
+  plan.stay_at_end = stay_at_end_;
   const bool aside = choice.manoeuvre.for_s > 0.0;
   const RoutePlace place = nearest_place(route_, own.p_W, {}, 1e9);
   const Vec aim = point_ahead(route_, place, options_.response.look_ahead_m) - own.p_W;
@@ -175,7 +180,7 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
   plan.course_rad = wrap_to_pi(route_rad + (aside ? choice.manoeuvre.offset_rad : 0.0));
   plan.speed_share = choice.manoeuvre.speed_share;
   const double left_m = (route_.end() - own.p_W).norm();
-  holding_ = stay_at_end && !aside && left_m < (holding_ ? kDrifted_m : kAtPlace_m);
+  holding_ = stay_at_end_ && !aside && left_m < (holding_ ? kDrifted_m : kAtPlace_m);
   if (holding_) {
     // It faces what it waits for, so that it sees when that is clear.
     const Vec goal = Vec{plan.goal_x_m, plan.goal_y_m} - own.p_W;
@@ -199,7 +204,8 @@ bool Pilot::asks_for_best() noexcept {
 // a closed goal are much alike, and each look shows another one as the nearest.
 bool Pilot::keeps_best(const SonarPath& path) noexcept {
   if (asked_for_best_) {
-    best_ = path.reason == PathReason::kFound ? best_ : std::nullopt;
+    const bool led = path.reason == PathReason::kFound || path.reason == PathReason::kLimit;
+    best_ = led ? best_ : std::nullopt;
     return false;
   }
   if (path.reason != PathReason::kNoPath || path.point_count == 0) {
@@ -215,6 +221,22 @@ bool Pilot::keeps_best(const SonarPath& path) noexcept {
     best_ = nearest;
   }
   return stands;
+}
+
+// The way that the answer shows; of a search that met its bound the way that was there before.
+void Pilot::take_route(const SonarPath& path) noexcept {
+  const bool best_kept = keeps_best(path);
+  route_kept_ = path.reason == PathReason::kLimit && route_.count > 1;
+  if (route_kept_) {
+    return;
+  }
+  if (!best_kept) {
+    make_route(path);
+  }
+  if (path.reason == PathReason::kFound) {
+    remember_sides(route_);
+  }
+  stay_at_end_ = stay_ || goal_moved_ || asked_for_best_ || path.reason != PathReason::kFound;
 }
 
 void Pilot::make_route(const SonarPath& path) noexcept {
@@ -261,7 +283,6 @@ void Pilot::explain(const SonarPath& path, const ManoeuvreChooser::Choice& choic
   plan.reason = escaping_                                    ? PathReason::kStartBlocked
                 : goal_moved_ && found == PathReason::kFound ? PathReason::kGoalBlocked
                                                              : found;
-  plan.narrow = path.narrow;
   plan.changed = choice.changed || path.sides_changed;
   // Of a manoeuvre the cause is what following the route would come to.
   const Manoeuvre& manoeuvre = choice.manoeuvre;
@@ -277,12 +298,12 @@ void Pilot::explain(const SonarPath& path, const ManoeuvreChooser::Choice& choic
     plan.rung = PlanRung::kHold;
   } else if (escaping_) {
     plan.rung = PlanRung::kEscape;
-  } else if (found != PathReason::kFound) {
+  } else if (found != PathReason::kFound && !(route_kept_ && !stay_at_end_)) {
     plan.rung = PlanRung::kBestPoint;
   } else if (goal_moved_) {
     plan.rung = PlanRung::kNearGoal;
   } else {
-    plan.rung = path.narrow ? PlanRung::kSlow : PlanRung::kOnRoute;
+    plan.rung = plan.narrow ? PlanRung::kSlow : PlanRung::kOnRoute;
   }
 }
 

@@ -124,6 +124,25 @@ std::optional<Vec> way_out(const PathRequest& request, const Vec& point_W) noexc
   return best;
 }
 
+bool make_room(PathRequest& request, const Vec& point_W) noexcept {
+  bool needed = false;
+  for (std::uint32_t i = 0; i < request.zone_count; ++i) {
+    const double need_m = kOutside_m - zone_distance_m(request.zones[i].shape, point_W);
+    if (need_m > request.zones[i].give_m) {
+      return false;
+    }
+    needed = needed || need_m > 0.0;
+  }
+  for (std::uint32_t i = 0; i < request.zone_count && needed; ++i) {
+    PathZone& zone = request.zones[i];
+    const double need_m = std::max(0.0, kOutside_m - zone_distance_m(zone.shape, point_W));
+    zone.shape.protection_first_m -= need_m;
+    zone.shape.protection_second_m -= need_m;
+    zone.give_m -= need_m;
+  }
+  return needed;
+}
+
 std::optional<Vec> nearest_free(const PathRequest& request, const Vec& point_W, const Vec& from_W,
                                 double outside_m) noexcept {
   for (double out_m = kStep_m; out_m <= kReach_m; out_m += kStep_m) {

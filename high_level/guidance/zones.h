@@ -47,6 +47,10 @@ void make_zones(const ZoneOptions& options, const VehicleModel& vehicle, const T
 [[nodiscard]] double zone_clearance_m(const PathRequest& request,
                                       const Eigen::Vector2d& point_W) noexcept;
 
+// Makes zones that a point lies in as narrow as it needs to lie outside them, where they may give
+// so much. False: it was outside already, or one of them may not, and all stay as they are.
+bool make_room(PathRequest& request, const Eigen::Vector2d& point_W) noexcept;
+
 // The nearest point outside every zone to a point inside one, reached in a straight line that
 // leads into no obstacle deeper than it starts. Nothing where there is none within 12 m.
 [[nodiscard]] std::optional<Eigen::Vector2d> way_out(const PathRequest& request,

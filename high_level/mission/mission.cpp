@@ -107,6 +107,7 @@ void Mission::start(const MissionDefinition& definition, const WorldPoint& posit
   status_.mission = definition.id;
   status_.started = now;
   status_.ended = Time{};
+  status_.skipped = 0;
   if (status_.first_started == Time{}) {
     status_.first_started = now;
   }
@@ -132,6 +133,7 @@ void Mission::limit_speed(double speed_m_s) noexcept {
 
 void Mission::hold(const WorldPoint& position, MissionCause cause) noexcept {
   status_.state = MissionState::kHolding;
+  status_.blocked_since = Time{};
   status_.cause = cause;
   status_.goal_x_m = position.xy_m.x();
   status_.goal_y_m = position.xy_m.y();
@@ -162,6 +164,30 @@ void Mission::watch_link(const CommandLink& link, const WorldPoint& position, Ti
       abort(status_.aborts, MissionCause::kLinkLost);
       break;
   }
+}
+
+void Mission::watch_blocked(GoalOutlook outlook, const WorldPoint& position, Time now) noexcept {
+  if (!under_way() || outlook == GoalOutlook::kOpen) {
+    status_.blocked_since = Time{};
+    return;
+  }
+  if (status_.blocked_since == Time{}) {
+    status_.blocked_since = outlook == GoalOutlook::kAwaited ? now : Time{};
+    return;
+  }
+  if (is_last_goal() || now - status_.blocked_since < definition_.blocked_patience) {
+    return;
+  }
+  if (definition_.blocked == Blocked::kSkip) {
+    ++status_.skipped;
+    make_for(status_.goal_index + 1);
+  } else {
+    hold(position, MissionCause::kBlocked);
+  }
+}
+
+bool Mission::is_last_goal() const noexcept {
+  return status_.goal_index + 1 >= definition_.goal_count;
 }
 
 void Mission::end_disarmed(Time now) noexcept {
@@ -219,7 +245,7 @@ void Mission::advance(const WorldPoint& position, Time now) noexcept {
   if (!under_way()) {
     return;
   }
-  const bool last = status_.goal_index + 1 >= definition_.goal_count;
+  const bool last = is_last_goal();
   const double radius_m = last ? definition_.goal_radius_m : options_.waypoint_radius_m;
   // Nor is it reached where the distance is no number.
   if (!((position.xy_m - goal().xy_m).norm() <= radius_m)) {
@@ -236,6 +262,7 @@ void Mission::advance(const WorldPoint& position, Time now) noexcept {
 
 void Mission::make_for(std::uint32_t index) noexcept {
   status_.goal_index = index;
+  status_.blocked_since = Time{};
   status_.goal_x_m = definition_.goals[index].x_m;
   status_.goal_y_m = definition_.goals[index].y_m;
 }

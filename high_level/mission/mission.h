@@ -33,6 +33,13 @@ struct MissionOptions {
   SpeedTable speeds = SpeedTable::proportional(0.01);  // of the boat: which SurgeRef holds a speed
 };
 
+// What the newest plan says of the goal that is made for.
+enum class GoalOutlook : std::uint8_t {
+  kOpen,     // there is a way, or nothing is known yet
+  kBlocked,  // there is none, and it is on its way to where it can wait
+  kAwaited,  // there is none, and it waits there
+};
+
 // An order as it was published.
 struct GivenOrder {
   OperatorCommand command;
@@ -67,6 +74,10 @@ class Mission {
   void hold(const WorldPoint& position, MissionCause cause) noexcept;
   // What the mission says of a link that was open and has been silent for its time; once.
   void watch_link(const CommandLink& link, const WorldPoint& position, Time now) noexcept;
+  // Whether the newest plan finds no way to the goal, and waits as near to it as there is room. A
+  // waypoint is waited for as long as the mission says, and is then left out or held at; the last
+  // goal is waited for until somebody says otherwise.
+  void watch_blocked(GoalOutlook outlook, const WorldPoint& position, Time now) noexcept;
   // The thrusters were disarmed, and by nobody's word: as where that is ordered, it is aborted,
   // under way or held. What is sailed without thrust must not go on once there is thrust again, and
   // as long as it asks for thrust nobody can arm.
@@ -95,6 +106,7 @@ class Mission {
   [[nodiscard]] OrderAnswer obey(const GivenOrder& given, const WorldPoint& position,
                                  Time now) noexcept;
   void make_for(std::uint32_t index) noexcept;
+  [[nodiscard]] bool is_last_goal() const noexcept;
 
   MissionOptions options_;
   double speed_limit_m_s_ = std::numeric_limits<double>::infinity();

@@ -20,6 +20,12 @@ void add_mission(const MissionStatus& m, Time now, ordered_json& reply) {
   reply["time_s"] = m.started == Time{} ? 0.0 : to_seconds(now - m.started);
   reply["goal_m"] = {m.goal_x_m, m.goal_y_m};
   reply["aborts"] = m.aborts;
+  if (m.blocked_since != Time{}) {
+    reply["blocked"] = {{"for_s", to_seconds(now - m.blocked_since)}};
+  }
+  if (m.skipped > 0) {
+    reply["skipped"] = m.skipped;
+  }
   if (m.no_way != NoWayCause::kNone) {
     reply["no_way"] = {{"cause", to_string(m.no_way)}, {"for_s", to_seconds(now - m.no_way_since)}};
   }

@@ -153,6 +153,7 @@ void PlannerTask::step(Time now) noexcept {
   sail_as_the_mission_says(now);
   if (state != nullptr) {
     mission_.advance(position_, now);
+    mission_.watch_blocked(goal_outlook(), position_, now);
   }
   // Places are held by the pilot alone; the paper knows nothing of it.
   const bool sails = mission_.under_way() && !was_absent_;
@@ -223,6 +224,23 @@ void PlannerTask::watch_thrusters(Time now) noexcept {
       thrust->value.since > mission_.status().started) {
     mission_.end_disarmed(now);
   }
+}
+
+// Of a plan for that goal alone.
+GoalOutlook PlannerTask::goal_outlook() noexcept {
+  const auto* newest = plan_.latest();
+  const WorldPoint goal = mission_.goal();
+  if (newest == nullptr || newest->stamp < mission_.status().started ||
+      Eigen::Vector2d{newest->value.goal_x_m, newest->value.goal_y_m} != goal.xy_m) {
+    return GoalOutlook::kOpen;
+  }
+  const Plan& plan = newest->value;
+  const bool no_way = plan.stay_at_end && (plan.reason == PathReason::kNoPath ||
+                                           plan.reason == PathReason::kGoalBlocked);
+  if (!no_way) {
+    return GoalOutlook::kOpen;
+  }
+  return plan.rung == PlanRung::kHold ? GoalOutlook::kAwaited : GoalOutlook::kBlocked;
 }
 
 // A start, or another speed.

@@ -43,6 +43,7 @@ class PlannerTask final : public Task {
   void take_tunables() noexcept;
   void watch_link(Time now) noexcept;
   void watch_thrusters(Time now) noexcept;
+  [[nodiscard]] GoalOutlook goal_outlook() noexcept;
   void sail_as_the_mission_says(Time now) noexcept;
   // What is known of the water: the tracks, and the mission's areas as walls.
   [[nodiscard]] const Tracks& with_areas(const Tracks& tracks, Time now) noexcept;

@@ -10,7 +10,6 @@ namespace {
 // The plane of the search: metres in units of the sonar view's pixel at 30 m, because the tangents'
 // tolerances are meant for that size, with rows downwards; the start is its origin.
 constexpr double kUnit_m = 0.06;
-constexpr double kReach_m = 2000.0;
 
 [[nodiscard]] PointPx to_plane(const PathRequest& request, double x_m, double y_m) noexcept {
   return {(x_m - request.start_x_m) / kUnit_m, -(y_m - request.start_y_m) / kUnit_m};
@@ -78,7 +77,7 @@ void WorldPathFinder::draw(const PathRequest& request, bool give) noexcept {
 }
 
 TangentResult WorldPathFinder::search(const PathRequest& request, bool keep_sides) noexcept {
-  constexpr double kReach = kReach_m / kUnit_m;
+  constexpr double kReach = kPathReach_m / kUnit_m;
   const std::span<const ZonePx> zones{zones_.data(), zone_count_};
   const std::span<const BendSides> sides{sides_.data(), keep_sides ? zone_count_ : 0};
   return tangents_.find(zones, RegionPx::rectangle({-kReach, -kReach}, {kReach, kReach}),

@@ -18,7 +18,7 @@ class WorldPathFinder {
   // Of one search, and a plan is three searches at most. Tens are usual; where 64 walls of 32
   // vertices take more than this, a search would last longer than a plan may, and ends as kLimit:
   // no line, and who asked keeps what it has.
-  static constexpr std::uint32_t kMaxTried = 8192;
+  static constexpr std::uint32_t kMaxTried = 4096;
 
   // Fills all that concerns a path in the world, and the reason. kNoPath: the line leads to the
   // point nearest to the goal that was found.

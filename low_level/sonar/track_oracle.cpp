@@ -15,20 +15,46 @@ namespace {
 using Vec = Eigen::Vector2d;
 
 constexpr std::size_t kLatePings = 32;
-constexpr int kEdgeSamples = 24;       // of an ellipse
-constexpr double kWallSample_m = 0.5;  // of a wall
+constexpr int kEdgeSamples = 24;   // of an ellipse at least ...
+constexpr double kSample_m = 0.5;  // ... and as many as lie at most so far apart, as of a wall
 // Of a velocity while nothing better is known.
 constexpr double kUnknownVelocitySigma_m_s = 0.5;
 // Where it should be seen and is not for so long, it is gone.
 constexpr Duration kGoneAfter = std::chrono::seconds{2};
 
-[[nodiscard]] Vec ellipse_point(const Obstacle& ellipse, double share) noexcept {
-  const double angle_rad = 2.0 * std::numbers::pi * share;
+[[nodiscard]] Vec ellipse_point(const Obstacle& ellipse, double angle_rad) noexcept {
   const Vec along = first_axis(ellipse.angle_rad);
   const Vec across{along.y(), -along.x()};
   return Vec{ellipse.centre_x_m, ellipse.centre_y_m} +
          std::cos(angle_rad) * ellipse.semi_axis_first_m * along +
          std::sin(angle_rad) * ellipse.semi_axis_second_m * across;
+}
+
+// How many samples on from one at p the next is that may be within range of the viewer: those
+// between lie nearer to p than p is too far off.
+[[nodiscard]] std::int64_t samples_on(const Vec& p, const KnownView& view,
+                                      double spacing_m) noexcept {
+  const double too_far_m = (p - view.pose.p_WV.xy_m).norm() - view.range_m;
+  return spacing_m > 0.0
+             ? std::max<std::int64_t>(1, static_cast<std::int64_t>(too_far_m / spacing_m))
+             : 1;
+}
+
+// Calls visit(point) until it says that it has seen enough.
+template <class Visit>
+void for_each_edge_point(const Obstacle& ellipse, const KnownView& view, Visit visit) noexcept {
+  const double edge_max_m =
+      2.0 * std::numbers::pi * std::max(ellipse.semi_axis_first_m, ellipse.semi_axis_second_m);
+  const auto samples = std::max<std::int64_t>(kEdgeSamples, std::llround(edge_max_m / kSample_m));
+  const double spacing_m = edge_max_m / static_cast<double>(samples);
+  for (std::int64_t i = 0; i < samples;) {
+    const double share = static_cast<double>(i) / static_cast<double>(samples);
+    const Vec p = ellipse_point(ellipse, 2.0 * std::numbers::pi * share);
+    if (visit(p)) {
+      return;
+    }
+    i += samples_on(p, view, spacing_m);
+  }
 }
 
 [[nodiscard]] bool segments_cross(const Vec& a, const Vec& b, const Vec& c, const Vec& d) noexcept {
@@ -59,16 +85,20 @@ constexpr Duration kGoneAfter = std::chrono::seconds{2};
   return segment_distance_m(to_unit(from), to_unit(to), Vec::Zero()) < 1.0;
 }
 
-// Calls visit(point, distance along the wall) at most kWallSample_m apart.
+// Calls visit(point, distance along the wall) at most kSample_m apart, where it may be in range.
 template <class Visit>
-void for_each_wall_point(const Obstacle& wall, Visit visit) noexcept {
+void for_each_wall_point(const Obstacle& wall, const KnownView& view, Visit visit) noexcept {
   double walked_m = 0.0;
   for_each_side(wall, [&](const Vec& a, const Vec& b) {
     const double length_m = (b - a).norm();
-    const int parts = std::max(1, static_cast<int>(std::ceil(length_m / kWallSample_m)));
-    for (int i = 0; i <= parts; ++i) {
-      const double share = static_cast<double>(i) / parts;
-      visit(Vec{a + share * (b - a)}, walked_m + share * length_m);
+    const auto parts =
+        std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length_m / kSample_m)));
+    const double spacing_m = length_m / static_cast<double>(parts);
+    for (std::int64_t i = 0; i <= parts;) {
+      const double share = static_cast<double>(i) / static_cast<double>(parts);
+      const Vec p = a + share * (b - a);
+      visit(p, walked_m + share * length_m);
+      i += samples_on(p, view, spacing_m);
     }
     walked_m += length_m;
   });
@@ -96,6 +126,9 @@ void for_each_wall_point(const Obstacle& wall, Visit visit) noexcept {
     }
     walked_m += length_m;
   });
+  if (part.vertex_count == 0) {  // a wall without length: a post
+    part.vertex_count = wall.vertex_count;
+  }
   return part;
 }
 
@@ -167,13 +200,13 @@ TrackOracle::Seen TrackOracle::look_at(std::size_t index, const KnownView& view)
   }
   const Obstacle& obstacle = now_[index];
   if (obstacle.shape == ObstacleShape::kEllipse) {
-    for (int i = 0; i < kEdgeSamples && !seen.any; ++i) {
-      seen.any =
-          in_sight(ellipse_point(obstacle, i / static_cast<double>(kEdgeSamples)), index, view);
-    }
+    for_each_edge_point(obstacle, view, [&](const Vec& p) {
+      seen.any = in_sight(p, index, view);
+      return seen.any;
+    });
     return seen;
   }
-  for_each_wall_point(obstacle, [&](const Vec& p, double along_m) {
+  for_each_wall_point(obstacle, view, [&](const Vec& p, double along_m) {
     if (in_sight(p, index, view)) {
       seen.from_m = seen.any ? std::min(seen.from_m, along_m) : along_m;
       seen.to_m = seen.any ? std::max(seen.to_m, along_m) : along_m;

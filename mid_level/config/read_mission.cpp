@@ -14,6 +14,7 @@ constexpr Range kDegrees = Range::between(-180.0, 180.0);
 constexpr Range kGoalRadius_m = Range::above(0.0, 100.0);
 constexpr Range kSpeed_m_s = Range::above(0.0, 10.0);
 constexpr Range kLinkLostAfter_s = Range::between(1.5, 3600.0);
+constexpr Range kBlockedPatience_s = Range::between(0.0, 86400.0);
 constexpr double kPole_deg = 85.0;  // nearer to it east has no meaning
 
 using Pair = std::array<double, 2>;
@@ -112,6 +113,10 @@ void read_areas(const TomlTable& table, MissionDefinition& mission) {
   return static_cast<OnRestart>(table.choice("on_restart", {"hold", "resume"}));
 }
 
+[[nodiscard]] Blocked read_blocked(const TomlTable& table) {
+  return static_cast<Blocked>(table.choice("blocked", {"hold", "skip"}));
+}
+
 // What is asked for and not done yet is refused, rather than taken and not done.
 void require_done(const TomlTable& table, const char* key, std::string_view done) {
   if (table.has(key) && table.text(key, 64) != done) {
@@ -128,9 +133,13 @@ void refuse_undone(const TomlTable& table, const char* key) {
 }  // namespace
 
 MissionDefaults read_mission_defaults(const TomlTable& table) {
-  return {table.number("goal_radius_m", kGoalRadius_m), table.number("speed_m_s", kSpeed_m_s),
-          read_link_lost(table), table.duration("link_lost_after_s", kLinkLostAfter_s),
-          read_on_restart(table)};
+  return {table.number("goal_radius_m", kGoalRadius_m),
+          table.number("speed_m_s", kSpeed_m_s),
+          read_link_lost(table),
+          table.duration("link_lost_after_s", kLinkLostAfter_s),
+          read_on_restart(table),
+          read_blocked(table),
+          table.duration("blocked_patience_s", kBlockedPatience_s)};
 }
 
 MissionDefinition read_mission(const TomlTable& table, const MissionDefaults& defaults,
@@ -144,9 +153,12 @@ MissionDefinition read_mission(const TomlTable& table, const MissionDefaults& de
                                 ? table.duration("link_lost_after_s", kLinkLostAfter_s)
                                 : defaults.link_lost_after;
   mission.on_restart = table.has("on_restart") ? read_on_restart(table) : defaults.on_restart;
+  mission.blocked = table.has("blocked") ? read_blocked(table) : defaults.blocked;
+  mission.blocked_patience = table.has("blocked_patience_s")
+                                 ? table.duration("blocked_patience_s", kBlockedPatience_s)
+                                 : defaults.blocked_patience;
   read_areas(table, mission);
   require_done(table, "legs", "free");
-  require_done(table, "blocked", "hold");
   refuse_undone(table, "battery_low");
   require_done(table, "colregs", "off");
   return mission;

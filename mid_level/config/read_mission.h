@@ -16,6 +16,8 @@ struct MissionDefaults {
   LinkLost link_lost = LinkLost::kGoOn;
   Duration link_lost_after = std::chrono::seconds{5};
   OnRestart on_restart = OnRestart::kHold;
+  Blocked blocked = Blocked::kHold;
+  Duration blocked_patience = std::chrono::seconds{60};
 };
 [[nodiscard]] MissionDefaults read_mission_defaults(const TomlTable& table);
 

@@ -61,10 +61,11 @@ enum class MissionCause : std::uint8_t {
   kLinkLost,  // the commander's heartbeat was lost
   kRestart,   // its process was started anew: what the mission says of that was done
   kDisarmed,  // the thrusters were disarmed, and by nobody's word
+  kBlocked,   // a waypoint could not be reached, and was waited for long enough
 };
 [[nodiscard]] constexpr auto enumerators(MissionCause) noexcept {
-  return enumerators_to<MissionCause::kDisarmed>("order", "absence", "link_lost", "restart",
-                                                 "disarmed");
+  return enumerators_to<MissionCause::kBlocked>("order", "absence", "link_lost", "restart",
+                                                "disarmed", "blocked");
 }
 
 // Why no way is made over ground though it is wanted.
@@ -97,6 +98,8 @@ struct MissionStatus {
   std::uint32_t goal_index = 0;  // [-] of the goal made for: mission waypoints first, goal last
   double goal_x_m = 0.0;         // [m] [world] that goal; while holding the place held
   double goal_y_m = 0.0;         // [m] [world]
+  Time blocked_since{};          // [ns] it cannot be reached, and is waited for; 0: it is made for
+  std::uint32_t skipped = 0;     // [-] waypoints left out since the start, as they were blocked
   double home_x_m = 0.0;         // [m] [world] where it set out from
   double home_y_m = 0.0;         // [m] [world]
   std::uint64_t aborts = 0;      // [-] obeyed so far: OperatorCommand::aborts of the last one
@@ -113,7 +116,8 @@ struct MissionStatus {
         field("surge_ref", &M::surge_ref).within(0, 100), field("first_started", &M::first_started),
         field("started", &M::started), field("ended", &M::ended),
         field("goal_index", &M::goal_index), field("goal_x_m", &M::goal_x_m),
-        field("goal_y_m", &M::goal_y_m), field("home_x_m", &M::home_x_m),
+        field("goal_y_m", &M::goal_y_m), field("blocked_since", &M::blocked_since),
+        field("skipped", &M::skipped), field("home_x_m", &M::home_x_m),
         field("home_y_m", &M::home_y_m), field("aborts", &M::aborts), field("order", &M::order),
         field("answer", &M::answer), field("no_way", &M::no_way),
         field("no_way_since", &M::no_way_since));

@@ -32,6 +32,15 @@ enum class OnRestart : std::uint8_t {
   return enumerators_to<OnRestart::kResume>("hold", "resume");
 }
 
+// What is done at a waypoint that cannot be reached, once it was waited for.
+enum class Blocked : std::uint8_t {
+  kHold,  // it holds there, and waits to be told
+  kSkip,  // it makes for the next one
+};
+[[nodiscard]] constexpr auto enumerators(Blocked) noexcept {
+  return enumerators_to<Blocked::kSkip>("hold", "skip");
+}
+
 struct Goal {
   double x_m = 0.0;  // [m] [world]
   double y_m = 0.0;  // [m] [world]
@@ -77,6 +86,8 @@ struct MissionDefinition {
   LinkLost link_lost = LinkLost::kGoOn;
   Duration link_lost_after{};  // [ns] > 0 without a heartbeat of the commander
   OnRestart on_restart = OnRestart::kHold;
+  Blocked blocked = Blocked::kHold;
+  Duration blocked_patience{};          // [ns] >= 0 that a waypoint is waited for
   std::array<Goal, kMaxGoals> goals{};  // waypoints in order, the goal last
   std::uint32_t area_count = 0;         // [-] [0, kMaxAreas]
   std::array<MissionArea, kMaxAreas> areas{};
@@ -93,6 +104,7 @@ struct MissionDefinition {
         field("goal_radius_m", &M::goal_radius_m).within(0.0, 1e3),
         field("goal_count", &M::goal_count), field("link_lost", &M::link_lost),
         field("link_lost_after", &M::link_lost_after), field("on_restart", &M::on_restart),
+        field("blocked", &M::blocked), field("blocked_patience", &M::blocked_patience),
         field("goals", &M::goals, &M::goal_count), field("area_count", &M::area_count),
         field("areas", &M::areas, &M::area_count));
   }

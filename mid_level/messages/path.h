@@ -16,6 +16,9 @@ namespace lodesman {
 
 inline constexpr std::size_t kMaxPathPixels = 16384;
 
+// [m] kWorld: as far from the start, along x or y, a goal may lie.
+inline constexpr double kPathReach_m = 2000.0;
+
 // Where a path is looked for.
 enum class PathSpace : std::uint8_t {
   kSonarView,  // the pixels of the sonar view (the paper): zones are those of the sonar frame

@@ -94,6 +94,24 @@ std::string describe(NoWayCause cause, double for_s) {
   return "no way made for " + fixed(for_s, 0) + " s: " + because();
 }
 
+std::string mission_news(const MissionStatus& before, const MissionStatus& now) {
+  if (now.skipped > before.skipped) {
+    return "makes for the next waypoint: no way to the last, which was waited for as long as the "
+           "mission says";
+  }
+  if (now.cause == before.cause) {
+    return {};
+  }
+  switch (now.cause) {
+    case MissionCause::kDisarmed:
+      return "aborted: the thrusters were disarmed, for the thruster box or the low level was gone "
+             "too long";
+    case MissionCause::kBlocked:
+      return "held: no way to the waypoint, which was waited for as long as the mission says";
+    default: return {};
+  }
+}
+
 std::string PlanStory::news(const PlanRecord& plan) {
   // Along the path nothing is done about an obstacle: the nearest one may change without news.
   const std::uint32_t cause = plan.rung == "on_route" ? 0 : plan.cause;

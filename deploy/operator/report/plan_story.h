@@ -17,9 +17,8 @@ namespace lodesman::cli {
 // "no way made for 15 s: the thruster box takes no commands". for_s: [s] since when none was.
 [[nodiscard]] std::string describe(NoWayCause cause, double for_s);
 
-// Why a mission is over that nobody ended (MissionCause::kDisarmed).
-inline constexpr const char* kDisarmedWords =
-    "aborted: the thrusters were disarmed, for the thruster box or the low level was gone too long";
+// What became of a mission by nobody's word since `before`; empty: nothing.
+[[nodiscard]] std::string mission_news(const MissionStatus& before, const MissionStatus& now);
 
 class PlanStory {
  public:

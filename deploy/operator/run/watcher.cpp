@@ -76,8 +76,8 @@ void RunWatcher::poll() {
 void RunWatcher::take_mission() {
   while (const auto* mission = mission_.next()) {
     note_progress(*mission);
-    if (mission->value.cause == MissionCause::kDisarmed && status_.cause != mission->value.cause) {
-      note(mission->stamp, kDisarmedWords);
+    if (const std::string news = mission_news(status_, mission->value); !news.empty()) {
+      note(mission->stamp, news);
     }
     status_ = mission->value;
     status_.first_started = begins_.value_or(status_.first_started);

@@ -37,6 +37,8 @@ TEST_CASE("mission file: a goal is enough, the rest comes from the configuration
   CHECK(mission.speed_m_s == Approx(0.42));
   CHECK(mission.link_lost == LinkLost::kGoOn);
   CHECK(mission.on_restart == OnRestart::kHold);
+  CHECK(mission.blocked == Blocked::kHold);
+  CHECK(mission.blocked_patience == from_seconds(60.0));
   CHECK(mission.area_count == 0);
 }
 
@@ -51,6 +53,8 @@ legs = "free"
 link_lost = "return"
 link_lost_after_s = 8.0
 on_restart = "resume"
+blocked = "skip"
+blocked_patience_s = 0.0
 fence_m = [[-9, -9], [9, -9], [9, 30], [-9, 30]]
 keep_out_m = [[[1, 1], [2, 1], [2, 2]], [[4, 4], [5, 4], [5, 5]]]
 )");
@@ -60,6 +64,8 @@ keep_out_m = [[[1, 1], [2, 1], [2, 2]], [[4, 4], [5, 4], [5, 5]]]
   CHECK(mission.link_lost == LinkLost::kReturn);
   CHECK(mission.link_lost_after == from_seconds(8));
   CHECK(mission.on_restart == OnRestart::kResume);
+  CHECK(mission.blocked == Blocked::kSkip);
+  CHECK(mission.blocked_patience == Duration{});
   REQUIRE(mission.area_count == 3);
   CHECK(mission.areas[0].kind == AreaKind::kFence);
   CHECK(mission.areas[0].corner_count == 4);
@@ -92,6 +98,10 @@ TEST_CASE("mission file: what is wrong is refused with its line", "[config]") {
             .starts_with("m.toml:2: link_lost: must be one of"));
   CHECK(refusal_of("goal_m = [0, 1]\non_restart = \"go on\"")
             .starts_with("m.toml:2: on_restart: must be one of"));
+  CHECK(refusal_of("goal_m = [0, 1]\nblocked = \"push\"")
+            .starts_with("m.toml:2: blocked: must be one of"));
+  CHECK(refusal_of("goal_m = [0, 1]\nblocked_patience_s = -1.0")
+            .starts_with("m.toml:2: blocked_patience_s: must be"));
   CHECK(refusal_of("goal_m = [0, inf]").starts_with("m.toml:1: goal_m"));
 }
 

@@ -195,6 +195,25 @@ TEST_CASE("pilot: a goal in a zone is gone near to, and waited at", "[high_level
   CHECK(bridge.plan->rung == PlanRung::kNearGoal);
 }
 
+TEST_CASE("pilot: a goal that zones can make room for is made for itself, slowly at the end",
+          "[high_level][guidance]") {
+  const Tracks tracks = tracks_of({disc_track(7, 0, 22)});
+  const Vec goal{0, 22 - 0.5 - 0.6 - 0.45 - 0.2};  // hull, least margin and a little off the stone
+  Bridge bridge;
+  bridge.ask(tracks, state_at(0, 0), goal);
+  CHECK(bridge.request->goal_y_m == Approx(goal.y()));
+  CHECK(zone_clearance_m(*bridge.request, goal) > 0.0);
+  bridge.decide(tracks, state_at(0, 0), PathReason::kFound, {{0, 0}, {goal.x(), goal.y()}});
+  CHECK(bridge.plan->reason == PathReason::kFound);
+  CHECK_FALSE(bridge.plan->stay_at_end);
+  CHECK(bridge.plan->speed_share == Approx(1.0));
+  const VehicleState near = state_at(0, goal.y() - 3.0);
+  bridge.ask(tracks, near, goal);
+  bridge.decide(tracks, near, PathReason::kFound, {{0, near.y_m}, {goal.x(), goal.y()}});
+  CHECK(bridge.plan->rung == PlanRung::kSlow);
+  CHECK(bridge.plan->speed_share <= 0.5);
+}
+
 TEST_CASE("pilot: a place to stay at is held, and left for what comes", "[high_level][guidance]") {
   Bridge bridge;
   const VehicleState here = state_at(3, 4);
@@ -223,9 +242,60 @@ TEST_CASE("pilot: without a path it goes to the best point and waits", "[high_le
   CHECK(bridge.plan->waypoints[1].x_m == Approx(2.0));
   CHECK(bridge.plan->waypoints[1].y_m == Approx(8.0));
   // With no point at all it stays where it is.
-  bridge.decide(none, state_at(0, 0), PathReason::kLimit, {});
+  bridge.decide(none, state_at(0, 0), PathReason::kStartBlocked, {});
   CHECK(bridge.plan->stay_at_end);
   CHECK(bridge.plan->rung == PlanRung::kHold);
+}
+
+TEST_CASE("pilot: a search that met its bound leaves the way that there was, and says so",
+          "[high_level][guidance]") {
+  const Tracks none = tracks_of({});
+  Bridge bridge;
+  bridge.ask(none, state_at(0, 0), {0, 30});
+  bridge.decide(none, state_at(0, 0), PathReason::kLimit, {});
+  CHECK(bridge.plan->rung == PlanRung::kHold);  // there was none yet
+  bridge.ask(none, state_at(0, 0), {0, 30});
+  bridge.decide(none, state_at(0, 0), PathReason::kFound, {{0, 0}, {3, 15}, {0, 30}});
+  bridge.ask(none, state_at(0.2, 1), {0, 30});
+  bridge.decide(none, state_at(0.2, 1), PathReason::kLimit, {});
+  CHECK(bridge.plan->reason == PathReason::kLimit);
+  CHECK(bridge.plan->rung == PlanRung::kOnRoute);
+  CHECK_FALSE(bridge.plan->stay_at_end);
+  CHECK(bridge.plan->speed_share == Approx(1.0));
+  REQUIRE(bridge.plan->waypoint_count >= 3);
+  CHECK(bridge.plan->waypoints[bridge.plan->waypoint_count - 1].y_m == Approx(30.0));
+  // It led to that goal, and leads to no other.
+  bridge.ask(none, state_at(0.2, 1), {9, -9});
+  bridge.decide(none, state_at(0.2, 1), PathReason::kLimit, {});
+  CHECK(bridge.plan->rung == PlanRung::kHold);
+}
+
+TEST_CASE("pilot: a goal beyond the reach of a search is made for, however far it is",
+          "[high_level][guidance]") {
+  const Tracks none = tracks_of({});
+  for (const double distance_m : {1999.0, 2500.0, 90'000.0}) {
+    INFO(distance_m);
+    Bridge bridge;
+    bridge.ask(none, state_at(10, 20), {10 + 0.6 * distance_m, 20 + 0.8 * distance_m});
+    const Vec way{bridge.request->goal_x_m - 10.0, bridge.request->goal_y_m - 20.0};
+    CHECK(way.cwiseAbs().maxCoeff() < kPathReach_m);
+    CHECK(way.norm() > 0.9 * kPathReach_m);
+    CHECK(way.normalized().dot(Vec{0.6, 0.8}) == Approx(1.0));
+    bridge.decide(none, state_at(10, 20), PathReason::kFound,
+                  {{10, 20}, {bridge.request->goal_x_m, bridge.request->goal_y_m}});
+    CHECK(bridge.plan->rung == PlanRung::kOnRoute);
+    CHECK_FALSE(bridge.plan->stay_at_end);
+  }
+  // Nor is it moved where what is asked for lies in a zone.
+  Bridge bridge;
+  Track round = disc_track(3, 0, 1900);
+  round.shape.semi_axis_first_m = round.shape.semi_axis_second_m = 400.0;
+  const Tracks island = tracks_of({round});
+  bridge.ask(island, state_at(0, 0), {0, 5000});
+  bridge.decide(island, state_at(0, 0), PathReason::kFound,
+                {{0, 0}, {bridge.request->goal_x_m, bridge.request->goal_y_m}});
+  CHECK(bridge.plan->reason == PathReason::kFound);
+  CHECK_FALSE(bridge.plan->stay_at_end);
 }
 
 TEST_CASE(

@@ -186,6 +186,26 @@ TEST_CASE("zones: of the free points round a goal the one nearest to us is taken
   CHECK_FALSE(nearest_free(*request_with({round_zone(0, 0, 0.5, 20.0)}), {0, 0}, {0, -30}));
 }
 
+TEST_CASE("zones: they make room for a point as far as they may give, all of them or none",
+          "[high_level][guidance]") {
+  const auto zone = [](double x_m, double give_m) {
+    PathZone made = round_zone(x_m, 0, 0.5, 2.0);
+    made.give_m = give_m;
+    return made;
+  };
+  const auto gap = request_with({zone(-1.7, 0.4), zone(1.7, 0.4), zone(9.0, 0.4)});
+  CHECK(zone_clearance_m(*gap, {0, 0}) < 0.0);
+  CHECK(make_room(*gap, {0, 0}));
+  CHECK(zone_clearance_m(*gap, {0, 0}) == Approx(0.05));
+  CHECK(gap->zones[0].shape.protection_first_m == Approx(1.65));
+  CHECK(gap->zones[0].give_m == Approx(0.05));
+  CHECK(gap->zones[2].shape.protection_first_m == Approx(2.0));  // not in the way
+  CHECK_FALSE(make_room(*gap, {0, 0}));                          // there is room
+  const auto closed = request_with({zone(-1.7, 0.4), zone(1.7, 0.3)});
+  CHECK_FALSE(make_room(*closed, {0, 0}));
+  CHECK(closed->zones[0].shape.protection_first_m == Approx(2.0));
+}
+
 TEST_CASE("zones: doubt of the own place widens them as that of a track does",
           "[high_level][guidance]") {
   Track doubtful = disc_track(1, 0.0, 10.0);

@@ -15,6 +15,7 @@ MissionDefinition mission_through_5_and_20() {
   mission.goal_radius_m = 1.0;
   mission.link_lost_after = from_seconds(5);
   mission.goal_count = 2;
+  mission.blocked_patience = from_seconds(60);
   mission.goals[0] = {0, 5};
   mission.goals[1] = {0, 20};
   return mission;
@@ -52,6 +53,67 @@ TEST_CASE("mission: it waits for its start and ends at the last goal", "[high_le
   mission.advance({{0, 19.1}}, s(5));
   CHECK(mission.status().state == MissionState::kReached);
   CHECK(mission.status().ended == s(5));
+}
+
+TEST_CASE("mission: a waypoint to which there is no way is waited for, then left out or held at",
+          "[high_level][mission]") {
+  using enum GoalOutlook;
+  for (const Blocked policy : {Blocked::kHold, Blocked::kSkip}) {
+    INFO(to_string(policy));
+    Ordered ordered;
+    Mission& mission = ordered.mission;
+    MissionDefinition definition = mission_through_5_and_20();
+    definition.blocked = policy;
+    mission.set_at_hand(definition);
+    ordered.give(OperatorOrder::kStart, s(0));
+    mission.watch_blocked(kBlocked, {{0, 2}}, s(1));  // it is on its way to where it waits
+    CHECK(mission.status().blocked_since == Time{});
+    mission.watch_blocked(kAwaited, {{0, 3}}, s(10));
+    CHECK(mission.status().blocked_since == s(10));
+    mission.watch_blocked(kBlocked, {{0, 3}}, s(40));  // pushed off, it goes back
+    mission.watch_blocked(kAwaited, {{0, 3}}, s(69.9));
+    CHECK(mission.under_way());
+    CHECK(mission.status().goal_index == 0);
+    mission.watch_blocked(kAwaited, {{0, 3}}, s(70));
+    CHECK(mission.status().blocked_since == Time{});
+    if (policy == Blocked::kSkip) {
+      CHECK(mission.under_way());
+      CHECK(mission.status().goal_index == 1);
+      CHECK(mission.status().skipped == 1);
+      ordered.give(OperatorOrder::kAbort, s(71));
+      ordered.give(OperatorOrder::kStart, s(72));
+      CHECK(mission.status().skipped == 0);
+      continue;
+    }
+    CHECK(mission.holding());
+    CHECK(mission.status().cause == MissionCause::kBlocked);
+    CHECK(mission.goal().xy_m.y() == Approx(3));
+    ordered.give(OperatorOrder::kResume, s(80));
+    CHECK(mission.status().cause == MissionCause::kOrder);
+    CHECK(mission.goal().xy_m.y() == Approx(5));
+    mission.watch_blocked(kAwaited, {{0, 3}}, s(81));
+    mission.watch_blocked(kAwaited, {{0, 3}}, s(140));
+    CHECK(mission.under_way());
+  }
+}
+
+TEST_CASE("mission: a wait ends with a way, and the last goal is waited for as long as it takes",
+          "[high_level][mission]") {
+  using enum GoalOutlook;
+  Ordered ordered;
+  Mission& mission = ordered.mission;
+  ordered.give(OperatorOrder::kStart, s(0));
+  mission.watch_blocked(kAwaited, {{0, 3}}, s(10));
+  mission.watch_blocked(kOpen, {{0, 3}}, s(65));
+  CHECK(mission.status().blocked_since == Time{});
+  mission.watch_blocked(kAwaited, {{0, 3}}, s(80));
+  CHECK(mission.under_way());
+  mission.advance({{0, 5}}, s(90));
+  REQUIRE(mission.status().goal_index == 1);
+  mission.watch_blocked(kAwaited, {{0, 17}}, s(100));
+  mission.watch_blocked(kAwaited, {{0, 17}}, s(10'000));
+  CHECK(mission.under_way());
+  CHECK(mission.status().blocked_since == s(100));  // which it says
 }
 
 TEST_CASE("mission: an abort holds until a new start, which begins at the first goal",

@@ -256,6 +256,50 @@ TEST_CASE("track_oracle: of a wall it knows what it has seen", "[low_level][sona
   CHECK(turned.shape.vertices[1].x_m == Approx(std::sqrt(800.0)).margin(0.51));
 }
 
+TEST_CASE("track_oracle: what is large is seen as what is small is", "[low_level][sonar]") {
+  for (const double radius_m : {2.0, 40.0, 400.0, 50'000.0}) {
+    INFO(radius_m);
+    for (const double bearing_deg : {-50.0, 0.0, 41.0}) {
+      const double from_m = radius_m + 29.0;  // its edge lies 29 m off
+      const double bearing_rad = to_rad(bearing_deg);
+      CHECK(seen_at_once({buoy(from_m * std::sin(bearing_rad), from_m * std::cos(bearing_rad),
+                               radius_m)}) == 1);
+    }
+    CHECK(seen_at_once({buoy(0.0, radius_m + 31.0, radius_m)}) == 0);
+    CHECK(seen_at_once({buoy(0.0, -radius_m - 5.0, radius_m)}) == 0);
+  }
+  MovingObstacle bar = buoy(300.0, 20.0, 0.0);  // its end lies before the bow
+  bar.at_start.semi_axis_first_m = 0.4;
+  bar.at_start.semi_axis_second_m = 300.0;
+  CHECK(seen_at_once({bar}) == 1);
+}
+
+TEST_CASE("track_oracle: a wall without length is seen, as a post", "[low_level][sonar]") {
+  MovingObstacle post = quay(0.0);
+  post.at_start.vertices[0] = post.at_start.vertices[1] = {1.0, 9.0};
+  Watch watch{{post}};
+  const Tracks& tracks = watch.see(0.0);
+  REQUIRE(tracks.count == 1);
+  const Obstacle& shape = tracks.tracks[0].shape;
+  REQUIRE(shape.vertex_count == 2);
+  CHECK(shape.vertices[1].y_m == Approx(9.0));
+  CHECK(seen_at_once({post, buoy(1.0, 20.0)}) == 2);  // and hides next to nothing
+}
+
+TEST_CASE("track_oracle: of a wall of any length it knows what it has seen", "[low_level][sonar]") {
+  MovingObstacle coast = quay(20.0);
+  coast.at_start.vertices[0] = {-1e6, 20.0};
+  coast.at_start.vertices[1] = {2e6, 20.0};
+  Watch watch{{coast}};
+  const Tracks& tracks = watch.see(0.0);
+  REQUIRE(tracks.count == 1);
+  const Obstacle& shape = tracks.tracks[0].shape;
+  REQUIRE(shape.vertex_count == 2);
+  // What is within 30 m, 20 m off, but for a sample.
+  CHECK(shape.vertices[0].x_m == Approx(-22.36).margin(0.5));
+  CHECK(shape.vertices[1].x_m == Approx(22.36).margin(0.5));
+}
+
 TEST_CASE("track_oracle: of too many the farthest are left out and counted", "[low_level][sonar]") {
   Scene many{buoy(-14.5, 20.0, 0.1), buoy(14.5, 20.0, 0.1)};
   for (std::size_t i = 0; i < kMaxObstacles; ++i) {
