@@ -105,7 +105,8 @@ OwnMotion Pilot::when_it_takes_effect(Time now, const VehicleState& state) const
 void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const WorldPoint& goal,
                 bool stay, PathRequest& request) noexcept {
   if (goal.xy_m != best_for_W_) {
-    best_.reset();  // another waypoint, or a place to hold: they stood for the last goal
+    best_
+        .reset();  // another waypoint, or a place to hold: it and the route stood for the last goal
     route_.clear();
     best_for_W_ = goal.xy_m;
   }
@@ -117,8 +118,8 @@ void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const
              options_.response.cruise.speed_m_s, request, own.place_sigma_m);
   Vec start = own_W_;
   Vec end = within_reach(start, goal.xy_m);
-  far_ = end != goal.xy_m;
-  stay_ = stay && !far_;
+  const bool far = end != goal.xy_m;
+  stay_ = stay && !far;
   escaping_ = false;
   goal_moved_ = false;
   if (const double clear_m = zone_clearance_m(request, start); clear_m < kOutside_m) {
@@ -136,7 +137,7 @@ void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const
     const double room_m = options_.response.hull_half_length_m - options_.zones.hull_radius_m;
     if (const auto free = nearest_free(request, end, start, std::max(kOutside_m, room_m))) {
       end = *free;
-      goal_moved_ = !far_;
+      goal_moved_ = !far;
     }
   }
   request.start_x_m = start.x();
@@ -163,7 +164,7 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
                    Plan& plan) noexcept {
   take_route(path);
   const OwnMotion own = when_it_takes_effect(now, state);
-  plan.narrow = path.narrow || (goal_is_close_ && (route_.end() - own.p_W).norm() < kClose_m);
+  plan.narrow = route_is_narrow_ || (goal_is_close_ && (route_.end() - own.p_W).norm() < kClose_m);
   const double share = plan.narrow ? options_.narrow_speed_share : 1.0;
   const auto& choice = chooser_.choose(now, own, route_, tracks, share, stay_at_end_);
   plan.waypoint_count = 0;
@@ -226,8 +227,7 @@ bool Pilot::keeps_best(const SonarPath& path) noexcept {
 // The way that the answer shows; of a search that met its bound the way that was there before.
 void Pilot::take_route(const SonarPath& path) noexcept {
   const bool best_kept = keeps_best(path);
-  route_kept_ = path.reason == PathReason::kLimit && route_.count > 1;
-  if (route_kept_) {
+  if (path.reason == PathReason::kLimit && route_.count > 1) {
     return;
   }
   if (!best_kept) {
@@ -236,6 +236,7 @@ void Pilot::take_route(const SonarPath& path) noexcept {
   if (path.reason == PathReason::kFound) {
     remember_sides(route_);
   }
+  route_is_narrow_ = path.narrow;
   stay_at_end_ = stay_ || goal_moved_ || asked_for_best_ || path.reason != PathReason::kFound;
 }
 
@@ -298,7 +299,7 @@ void Pilot::explain(const SonarPath& path, const ManoeuvreChooser::Choice& choic
     plan.rung = PlanRung::kHold;
   } else if (escaping_) {
     plan.rung = PlanRung::kEscape;
-  } else if (found != PathReason::kFound && !(route_kept_ && !stay_at_end_)) {
+  } else if (found != PathReason::kFound && stay_at_end_) {
     plan.rung = PlanRung::kBestPoint;
   } else if (goal_moved_) {
     plan.rung = PlanRung::kNearGoal;

@@ -74,15 +74,14 @@ class Pilot {
   std::unique_ptr<PathRequest> asked_ = std::make_unique<PathRequest>();
   bool escaping_ = false;
   bool goal_moved_ = false;
-  bool far_ = false;            // the goal is beyond a search: what is asked for is on the way
   bool goal_is_close_ = false;  // to something: zones gave what it needs
   bool asked_for_best_ = false;
   bool stay_ = false;
   bool holding_ = false;  // in the last plan
   Eigen::Vector2d own_W_ = Eigen::Vector2d::Zero();
   Route route_;
-  bool stay_at_end_ = false;  // the route's end is a place to wait at
-  bool route_kept_ = false;   // from an earlier plan, as the last search met its bound
+  bool stay_at_end_ = false;      // the route's end is a place to wait at
+  bool route_is_narrow_ = false;  // zones had to give what they may
   // Where nothing leads to the goal: the point that is made for instead, until another is better.
   std::optional<Eigen::Vector2d> best_;
   Eigen::Vector2d best_for_W_ = Eigen::Vector2d::Zero();  // the goal it stands for

@@ -16,7 +16,7 @@ using Vec = Eigen::Vector2d;
 
 constexpr std::size_t kLatePings = 32;
 constexpr int kEdgeSamples = 24;   // of an ellipse at least ...
-constexpr double kSample_m = 0.5;  // ... and as many as lie at most so far apart, as of a wall
+constexpr double kSample_m = 0.5;  // ... and else about so far apart; of a wall at most
 // Of a velocity while nothing better is known.
 constexpr double kUnknownVelocitySigma_m_s = 0.5;
 // Where it should be seen and is not for so long, it is gone.

@@ -254,9 +254,7 @@ TEST_CASE("pilot: a search that met its bound leaves the way that there was, and
   bridge.ask(none, state_at(0, 0), {0, 30});
   bridge.decide(none, state_at(0, 0), PathReason::kLimit, {});
   CHECK(bridge.plan->rung == PlanRung::kHold);  // there was none yet
-  bridge.ask(none, state_at(0, 0), {0, 30});
   bridge.decide(none, state_at(0, 0), PathReason::kFound, {{0, 0}, {3, 15}, {0, 30}});
-  bridge.ask(none, state_at(0.2, 1), {0, 30});
   bridge.decide(none, state_at(0.2, 1), PathReason::kLimit, {});
   CHECK(bridge.plan->reason == PathReason::kLimit);
   CHECK(bridge.plan->rung == PlanRung::kOnRoute);
@@ -264,6 +262,13 @@ TEST_CASE("pilot: a search that met its bound leaves the way that there was, and
   CHECK(bridge.plan->speed_share == Approx(1.0));
   REQUIRE(bridge.plan->waypoint_count >= 3);
   CHECK(bridge.plan->waypoints[bridge.plan->waypoint_count - 1].y_m == Approx(30.0));
+  // A narrow one stays one, and is gone through slowly.
+  bridge.path->narrow = true;
+  bridge.decide(none, state_at(0.2, 1), PathReason::kFound, {{0, 0}, {3, 15}, {0, 30}});
+  bridge.path->narrow = false;
+  bridge.decide(none, state_at(0.2, 1), PathReason::kLimit, {});
+  CHECK(bridge.plan->narrow);
+  CHECK(bridge.plan->speed_share <= 0.5);
   // It led to that goal, and leads to no other.
   bridge.ask(none, state_at(0.2, 1), {9, -9});
   bridge.decide(none, state_at(0.2, 1), PathReason::kLimit, {});
@@ -272,29 +277,24 @@ TEST_CASE("pilot: a search that met its bound leaves the way that there was, and
 
 TEST_CASE("pilot: a goal beyond the reach of a search is made for, however far it is",
           "[high_level][guidance]") {
-  const Tracks none = tracks_of({});
   for (const double distance_m : {1999.0, 2500.0, 90'000.0}) {
     INFO(distance_m);
     Bridge bridge;
-    bridge.ask(none, state_at(10, 20), {10 + 0.6 * distance_m, 20 + 0.8 * distance_m});
+    bridge.ask(tracks_of({}), state_at(10, 20), {10 + 0.6 * distance_m, 20 + 0.8 * distance_m});
     const Vec way{bridge.request->goal_x_m - 10.0, bridge.request->goal_y_m - 20.0};
     CHECK(way.cwiseAbs().maxCoeff() < kPathReach_m);
     CHECK(way.norm() > 0.9 * kPathReach_m);
     CHECK(way.normalized().dot(Vec{0.6, 0.8}) == Approx(1.0));
-    bridge.decide(none, state_at(10, 20), PathReason::kFound,
-                  {{10, 20}, {bridge.request->goal_x_m, bridge.request->goal_y_m}});
-    CHECK(bridge.plan->rung == PlanRung::kOnRoute);
-    CHECK_FALSE(bridge.plan->stay_at_end);
   }
-  // Nor is it moved where what is asked for lies in a zone.
+  // Nor is it waited for where what is asked for lies in a zone.
   Bridge bridge;
-  Track round = disc_track(3, 0, 1900);
-  round.shape.semi_axis_first_m = round.shape.semi_axis_second_m = 400.0;
-  const Tracks island = tracks_of({round});
-  bridge.ask(island, state_at(0, 0), {0, 5000});
-  bridge.decide(island, state_at(0, 0), PathReason::kFound,
+  const Tracks stone = tracks_of({disc_track(3, 0, 1900)});
+  bridge.ask(stone, state_at(0, 0), {0, 5000});
+  REQUIRE(zone_clearance_m(*bridge.request, {0, 1900}) < 0.0);
+  bridge.decide(stone, state_at(0, 0), PathReason::kFound,
                 {{0, 0}, {bridge.request->goal_x_m, bridge.request->goal_y_m}});
   CHECK(bridge.plan->reason == PathReason::kFound);
+  CHECK(bridge.plan->rung == PlanRung::kOnRoute);
   CHECK_FALSE(bridge.plan->stay_at_end);
 }
 
