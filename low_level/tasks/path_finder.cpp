@@ -10,12 +10,9 @@ namespace lodesman {
 PathFinderTask::PathFinderTask(Blackboard& board, Role role)
     : requests_{board.path_request},
       obstacles_{board.sonar_obstacles},
-      paths_{writer_of(board, board.sonar_path, role)} {
-  // What was asked before this task existed is nobody's question any more.
-  if (const auto* old = requests_.latest(); old != nullptr) {
-    answered_ = old->sequence;
-  }
-}
+      paths_{writer_of(board, board.sonar_path, role)},
+      // What was asked before this task existed is nobody's question any more.
+      answered_{requests_.newest_when_made()} {}
 
 void PathFinderTask::step(Time now) noexcept {
   const auto* request = requests_.latest();

@@ -33,7 +33,7 @@ class PathFinderTask final : public Task {
   Reader<SonarObstacles> obstacles_;
   std::array<ChannelLook<>*, 2> inputs_{&obstacles_, &requests_};
   Writer<SonarPath> paths_;
-  std::uint64_t answered_ = 0;
+  std::uint64_t answered_;  // the last one's number
   std::unique_ptr<SonarPath> path_ = std::make_unique<SonarPath>();
 };
 

@@ -17,7 +17,8 @@ inline constexpr std::uint64_t kLastSequence = std::uint64_t{1} << 62U;
 template <template <class> class Atomic = std::atomic>
 class ChannelLook {
  public:
-  explicit ChannelLook(const Atomic<std::uint64_t>& newest) noexcept : newest_{&newest} {}
+  explicit ChannelLook(const Atomic<std::uint64_t>& newest) noexcept
+      : newest_{&newest}, when_made_{announced()} {}
 
   // From now on it sees what there is now.
   void look() noexcept { look_up_to(announced()); }
@@ -30,6 +31,8 @@ class ChannelLook {
   [[nodiscard]] std::uint64_t newest_sequence() const noexcept {
     return seen_ == kAll ? announced() : seen_;
   }
+  // The newest that there was when this reader was made.
+  [[nodiscard]] std::uint64_t newest_when_made() const noexcept { return when_made_; }
   // Whether since it looked all that it asked for was in its place.
   [[nodiscard]] bool is_whole() const noexcept { return whole_; }
   // Where its channel begins.
@@ -53,6 +56,7 @@ class ChannelLook {
   }
 
   const Atomic<std::uint64_t>* newest_;
+  std::uint64_t when_made_;
   std::uint64_t seen_ = kAll;
   bool whole_ = true;
 };

@@ -28,11 +28,11 @@ class StepWitness {
     }
   }
 
-  // Before the first step that this runner makes: a task that never was stepped is told of.
+  // Before the first step that this runner makes: of a task that never was stepped is told what
+  // there was as it was made. What came between is its first step's.
   void begin(Time now) noexcept {
     if (task_.steps() == 0) {
-      look();
-      tell(now);
+      tell(now, [](const ChannelLook<>& input) { return input.newest_when_made(); });
     }
   }
   void look() noexcept {
@@ -41,11 +41,12 @@ class StepWitness {
   }
   void stepped(Time began) noexcept {
     task_.count_step();
-    tell(began);
+    tell(began, [](const ChannelLook<>& input) { return input.newest_sequence(); });
   }
 
  private:
-  void tell(Time at) noexcept {
+  template <class Saw>
+  void tell(Time at, Saw saw) noexcept {
     if (!writer_) {
       return;
     }
@@ -53,7 +54,7 @@ class StepWitness {
     told_.step = task_.steps();
     told_.whole = true;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-      told_.inputs[i].sequence = inputs[i]->newest_sequence();
+      told_.inputs[i].sequence = saw(*inputs[i]);
       told_.whole &= inputs[i]->is_whole();
     }
     writer_->publish(told_, at);

@@ -76,6 +76,26 @@ TEST_CASE("step witness: it tells what each step saw, and a step sees no more", 
   CHECK(task.seen == std::vector<std::uint64_t>{0, 1, 2});
 }
 
+TEST_CASE("step witness: what comes between a task's making and its first step is the step's",
+          "[runtime]") {
+  const auto board = std::make_unique<Blackboard>();
+  Writer<Plan> plans{board->plan, Role::kHigh, "plan"};
+  plans.publish({}, kStart);
+  Interrupted task{*board};
+  plans.publish({}, kStart);
+  StepWitness witness{*board, {TaskSpec{.id = TaskId::kController}, &task}, Role::kHigh};
+  Reader<StepInputs> told{board->step_inputs[4]};
+  plans.publish({}, kStart);
+  witness.begin(kStart);
+  REQUIRE(told.latest() != nullptr);
+  CHECK(told.latest()->value.step == 0);
+  CHECK(told.latest()->value.inputs[1].sequence == 1);
+  witness.look();
+  task.step(kStart);
+  witness.stepped(kStart);
+  CHECK(told.latest()->value.inputs[1].sequence == 3);
+}
+
 TEST_CASE("step witness: of a task that is stepped on by another runner no beginning is told",
           "[runtime]") {
   const auto board = std::make_unique<Blackboard>();
