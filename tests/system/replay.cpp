@@ -137,6 +137,37 @@ TEST_CASE("replay: what a task saw and is not in the recording is said, and not 
   CHECK(blind.differing() == 0);
 }
 
+TEST_CASE("replay: of the first and the last ping a recorder may have but what was made of it",
+          "[system][plain]") {
+  const Scratch scratch{"replay"};
+  const fs::path file = sailed(scratch, "paper-static", "default");
+  std::uint32_t last_ping = 0;
+  rewrite_recording(file, scratch.file("whole.mcap"), [&](RewrittenMessage& message) {
+    last_ping = message.topic == "raw/sonar_ping" ? message.head.sequence : last_ping;
+    return true;
+  });
+  const auto without_pings = [&](auto lacks) {
+    const fs::path lacking = scratch.file("lacking.mcap");
+    rewrite_recording(file, lacking, [&](RewrittenMessage& message) {
+      return message.topic != "raw/sonar_ping" || !lacks(message.head.sequence);
+    });
+    const ReplayResult result = replayed(lacking);
+    CHECK(result.differing() == 0);
+    CHECK(of(result, TaskId::kDeltaT).judged > 100);
+    const std::uint64_t gaps =
+        of(result, TaskId::kDeltaT).not_judged[static_cast<std::size_t>(Doubt::kGap)];
+    CHECK(result.not_judged() == gaps);
+    return gaps;
+  };
+  // One that began late: its task is judged once it has agreed for a while.
+  CHECK(without_pings([](std::uint32_t number) { return number < 3; }) > 0);
+  // One that ends looks at one channel after the other.
+  const std::uint64_t at_end =
+      without_pings([&](std::uint32_t number) { return number == last_ping; });
+  CHECK(at_end > 0);
+  CHECK(at_end < 5);
+}
+
 TEST_CASE("replay: where the recording begins late, tasks count from when they agree", "[system]") {
   const Scratch scratch{"replay"};
   const fs::path file = sailed(scratch, "paper-static", "default");

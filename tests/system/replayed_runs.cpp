@@ -35,9 +35,10 @@ void check_run(const std::string& word, const std::string& profile) {
   const cli::ReplayResult result =
       cli::replay({{out / "mission.mcap"}, {}, [] { return false; }, {}});
   const cli::Difference* first = result.first();
-  INFO((first == nullptr ? std::string{"none differs"}
-                         : first->channel + " " + first->field.path + ": " + first->field.recorded +
-                               ", " + first->field.replayed));
+  INFO((first == nullptr
+            ? std::string{"none differs"}
+            : first->channel + " " + std::to_string(first->sequence) + " " + first->field.path +
+                  ": " + first->field.recorded + ", " + first->field.replayed));
   CHECK(result.differing() == 0);
   for (const cli::TaskVerdict& task : result.tasks) {
     INFO(to_string(task.task));

@@ -127,6 +127,9 @@ void JudgedTask::judge(Time stepped, bool ends) {
   }
   verdict_.not_judged[static_cast<std::size_t>(Doubt::kNoStep)] += output.outside;
   verdict_.not_judged[static_cast<std::size_t>(Doubt::kLost)] += output.missing;
+  if (ends && may_lack_its_ping(output)) {
+    doubt(Doubt::kGap);
+  }
   std::uint64_t decisions = output.recorded;
   for (const Difference& difference : output.differences) {
     decisions += difference.kind == DifferenceKind::kPublished ? 1U : 0U;
@@ -144,6 +147,16 @@ void JudgedTask::judge(Time stepped, bool ends) {
       verdict_.differences.push_back(std::move(difference));
     }
   }
+}
+
+// A recorder that ends looks at one channel after the other: it may have what the task made of a
+// ping and not the ping.
+bool JudgedTask::may_lack_its_ping(const StepOutput& output) const noexcept {
+  return verdict_.task == TaskId::kDeltaT && !sonar_.has_more(log_[pings_channel_]) &&
+         std::any_of(output.differences.begin(), output.differences.end(),
+                     [](const Difference& difference) {
+                       return difference.kind == DifferenceKind::kNotPublished;
+                     });
 }
 
 void JudgedTask::judge_in_doubt(Time stepped, std::uint64_t decisions, bool agrees) {

@@ -45,6 +45,7 @@ class JudgedTask {
       const StepInputs& inputs, std::size_t i, const std::vector<std::uint64_t>& places) const;
   void feed(const StepInputs& inputs, const std::vector<std::uint64_t>& places);
   void judge(Time stepped, bool ends);
+  [[nodiscard]] bool may_lack_its_ping(const StepOutput& output) const noexcept;
   void judge_in_doubt(Time stepped, std::uint64_t decisions, bool agrees);
   void doubt(Doubt why) noexcept;
 

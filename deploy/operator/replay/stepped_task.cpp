@@ -17,7 +17,8 @@ bool RecordedSonar::prepare(Time stepped, const ChannelLog& pings) {
     has_ping_ = next->stamp == stepped && decode_raw(next->raw, *ping_);
     all &= has_ping_ || next->stamp != stepped;
   }
-  return all;
+  const Recorded* later = pings.after(taken_);
+  return all && (has_ping_ || later == nullptr || later->sequence == taken_ + 1);
 }
 
 ReadStatus RecordedSonar::poll(Time /*now*/, SonarPing& out) noexcept {

@@ -21,11 +21,15 @@ struct ReplayOptions {
 // Gives a step the ping that the recorded one took from the device.
 class RecordedSonar final : public ImagingSonar {
  public:
-  // False where a ping is missing that an earlier step may have taken.
+  // False where a ping is missing that this step, or an earlier one, may have taken.
   [[nodiscard]] bool prepare(Time stepped, const ChannelLog& pings);
   [[nodiscard]] ReadStatus poll(Time now, SonarPing& out) noexcept override;
   // Pings of before are nobody's.
   void begin_after(std::uint64_t sequence) noexcept { taken_ = sequence; }
+  // Whether the recording has pings after those that steps were given.
+  [[nodiscard]] bool has_more(const ChannelLog& pings) const noexcept {
+    return pings.after(taken_) != nullptr;
+  }
 
  private:
   std::uint64_t taken_ = 0;
