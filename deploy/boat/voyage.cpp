@@ -67,7 +67,7 @@ DeskOptions desk_options(const BoatConfig& config, const Voyage& voyage) {
   // Nothing real can turn.
   options.arms_by_itself = !has_real_thrusters(config);
   const auto& pilot = config.high.planner.replanner.pilot;
-  options.obeys_areas = pilot.has_value();
+  options.plans_in_world = pilot.has_value();
   options.tunables.speed_limit_m_s = config.speed_limit_m_s;
   options.tunables.heading_gain_per_deg = config.high.controller.steering.heading_gain_per_deg;
   if (pilot) {

@@ -20,6 +20,7 @@ constexpr int kAsksForBest = 10;     // pings on the way to one, before the goal
 constexpr double kAtPlace_m = 0.8;   // so near to a place to wait at is there ...
 constexpr double kDrifted_m = 2.5;   // ... and so far from it no more
 constexpr double kClose_m = 4.0;     // so near to a goal that zones made room for it is slow
+constexpr int kFreeAsks = 10;        // pings on any way, where a line cannot be gone back to
 constexpr double kFar_m = 0.95 * kPathReach_m;  // farther goals are asked for on the way
 
 [[nodiscard]] Vec centre_of(const Obstacle& shape) noexcept {
@@ -59,6 +60,9 @@ void Pilot::start() noexcept {
   side_count_ = 0;
   holding_ = false;
   best_.reset();
+  line_.reset();
+  last_line_ = {};
+  free_asks_ = 0;
   route_.clear();
 }
 
@@ -102,13 +106,16 @@ OwnMotion Pilot::when_it_takes_effect(Time now, const VehicleState& state) const
   return own;
 }
 
-void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const WorldPoint& goal,
-                bool stay, PathRequest& request) noexcept {
-  if (goal.xy_m != best_for_W_) {
+void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state,
+                const Destination& destination, PathRequest& request) noexcept {
+  const Vec& goal = destination.goal.xy_m;
+  if (goal != best_for_W_) {
     best_
         .reset();  // another waypoint, or a place to hold: it and the route stood for the last goal
     route_.clear();
-    best_for_W_ = goal.xy_m;
+    last_line_ = {};
+    free_asks_ = 0;
+    best_for_W_ = goal;
   }
   const OwnMotion own = when_it_takes_effect(now, state);
   own_W_ = own.p_W;
@@ -117,35 +124,73 @@ void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state, const
   make_zones(options_.zones, options_.response.model, tracks, now, own_W_,
              options_.response.cruise.speed_m_s, request, own.place_sigma_m);
   Vec start = own_W_;
-  Vec end = within_reach(start, goal.xy_m);
-  const bool far = end != goal.xy_m;
-  stay_ = stay && !far;
   escaping_ = false;
-  goal_moved_ = false;
-  if (const double clear_m = zone_clearance_m(request, start); clear_m < kOutside_m) {
+  const double clear_m = zone_clearance_m(request, start);
+  if (clear_m < kOutside_m) {
     if (const auto out = way_out(request, start)) {
       start = *out;
       escaping_ = clear_m < -kSlightly_m;
     }
   }
   asked_for_best_ = asks_for_best();
-  goal_is_close_ = !asked_for_best_ && make_room(request, end);
-  if (asked_for_best_) {
-    end = *best_;
-  } else if (zone_clearance_m(request, end) < 0.0) {
-    // Where it waits it may turn: a zone leaves room for half the beam, not half the length.
-    const double room_m = options_.response.hull_half_length_m - options_.zones.hull_radius_m;
-    if (const auto free = nearest_free(request, end, start, std::max(kOutside_m, room_m))) {
-      end = *free;
-      goal_moved_ = !far;
-    }
+  keep_line(destination, clear_m >= kOutside_m, request);
+  if (line_ && line_->line.leave_m > line_->line.along_m) {
+    start = line_->leg.at(line_->line.leave_m);
   }
+  const Vec end = end_of_ask(destination, start, request);
   request.start_x_m = start.x();
   request.start_y_m = start.y();
   request.goal_x_m = end.x();
   request.goal_y_m = end.y();
   ask_for_sides(request);
   *asked_ = request;
+}
+
+void Pilot::keep_line(const Destination& destination, bool start_is_free,
+                      const PathRequest& request) noexcept {
+  line_.reset();
+  if (!destination.leg || best_) {
+    return;
+  }
+  if (free_asks_ > 0) {
+    --free_asks_;
+    return;
+  }
+  last_line_ = line_to_keep(*destination.leg, request, own_W_, last_line_);
+  line_ = KeptLine{*destination.leg, last_line_, last_line_.rejoin_m < destination.leg->length_m()};
+  if (!start_is_free) {
+    line_->line.leave_m = line_->line.along_m;
+    line_->line.is_clear = false;
+  }
+}
+
+// The goal, what is near it where it lies in a zone, or on the way to it: where the line is gone
+// back to, the best point that can be reached, or what is not too far.
+Vec Pilot::end_of_ask(const Destination& destination, const Vec& start,
+                      PathRequest& request) noexcept {
+  const Vec& goal = destination.goal.xy_m;
+  stay_ = destination.stay;
+  goal_moved_ = false;
+  goal_is_close_ = false;
+  if (asked_for_best_) {
+    return *best_;
+  }
+  if (line_ && line_->rejoins) {
+    return within_reach(own_W_, line_->leg.at(line_->line.rejoin_m));
+  }
+  const Vec end = within_reach(own_W_, goal);
+  const bool far = end != goal;
+  stay_ = stay_ && !far;
+  goal_is_close_ = make_room(request, end);
+  if (zone_clearance_m(request, end) < 0.0) {
+    // Where it waits it may turn: a zone leaves room for half the beam, not half the length.
+    const double room_m = options_.response.hull_half_length_m - options_.zones.hull_radius_m;
+    if (const auto free = nearest_free(request, end, start, std::max(kOutside_m, room_m))) {
+      goal_moved_ = !far;
+      return *free;
+    }
+  }
+  return end;
 }
 
 void Pilot::ask_for_sides(PathRequest& request) const noexcept {
@@ -162,7 +207,7 @@ void Pilot::ask_for_sides(PathRequest& request) const noexcept {
 
 void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const VehicleState& state,
                    Plan& plan) noexcept {
-  take_route(path);
+  const PathReason reason = take_route(path);
   const OwnMotion own = when_it_takes_effect(now, state);
   plan.narrow = route_is_narrow_ || (goal_is_close_ && (route_.end() - own.p_W).norm() < kClose_m);
   const double share = plan.narrow ? options_.narrow_speed_share : 1.0;
@@ -175,6 +220,11 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
   plan.stay_at_end = stay_at_end_;
   const bool aside = choice.manoeuvre.for_s > 0.0;
   const RoutePlace place = nearest_place(route_, own.p_W, {}, 1e9);
+  if (line_ && !aside) {
+    // From abeam, not from where the boat is: else it would never be off its line.
+    const Vec abeam = point_at(route_, place);
+    plan.waypoints[0] = {abeam.x(), abeam.y()};
+  }
   const Vec aim = point_ahead(route_, place, options_.response.look_ahead_m) - own.p_W;
   const double route_rad = aim.norm() > kAim_m ? std::atan2(aim.x(), aim.y()) : own.heading_rad;
   plan.steer_by = aside ? SteerBy::kCourse : SteerBy::kLine;
@@ -187,7 +237,7 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
     const Vec goal = Vec{plan.goal_x_m, plan.goal_y_m} - own.p_W;
     plan.course_rad = goal.norm() > kDrifted_m ? std::atan2(goal.x(), goal.y()) : own.heading_rad;
   }
-  explain(path, choice, plan);
+  explain(reason, path, choice, plan);
 }
 
 // On the way to the best point the goal itself is asked for now and then; there, always.
@@ -225,24 +275,50 @@ bool Pilot::keeps_best(const SonarPath& path) noexcept {
 }
 
 // The way that the answer shows; of a search that met its bound the way that was there before.
-void Pilot::take_route(const SonarPath& path) noexcept {
+PathReason Pilot::take_route(const SonarPath& path) noexcept {
+  const bool found = path.reason == PathReason::kFound;
+  if (line_ && line_->rejoins && !found && path.reason != PathReason::kLimit) {
+    make_for_the_end_of_the_line();
+    return PathReason::kFound;
+  }
   const bool best_kept = keeps_best(path);
   if (path.reason == PathReason::kLimit && route_.count > 1) {
-    return;
+    return path.reason;
   }
   if (!best_kept) {
     make_route(path);
   }
-  if (path.reason == PathReason::kFound) {
+  if (found) {
     remember_sides(route_);
+    if (line_ && line_->rejoins) {
+      (void)route_.add(line_->leg.to_W);
+    }
   }
   route_is_narrow_ = path.narrow;
-  stay_at_end_ = stay_ || goal_moved_ || asked_for_best_ || path.reason != PathReason::kFound;
+  stay_at_end_ = stay_ || goal_moved_ || asked_for_best_ || !found;
+  return path.reason;
+}
+
+// The line cannot be gone back to where it was to be: until the next answer on the way that there
+// was, or straight, as far as the manoeuvres allow.
+void Pilot::make_for_the_end_of_the_line() noexcept {
+  free_asks_ = kFreeAsks;
+  if (route_.count < 2) {
+    route_.clear();
+    (void)route_.add(own_W_);
+    (void)route_.add(line_->leg.to_W);
+    stay_at_end_ = false;
+  }
 }
 
 void Pilot::make_route(const SonarPath& path) noexcept {
   route_.clear();
-  (void)route_.add(own_W_);
+  const bool on_line = line_ && (line_->line.is_clear || line_->line.leave_m > line_->line.along_m);
+  (void)route_.add(on_line ? line_->leg.at(line_->line.along_m) : own_W_);
+  if (on_line && line_->line.is_clear && path.reason == PathReason::kFound) {
+    (void)route_.add({asked_->goal_x_m, asked_->goal_y_m});
+    return;
+  }
   const bool led = path.point_count > 0;
   for (std::uint32_t i = 0; i < path.point_count; ++i) {
     const Vec point{path.points[i].x_m, path.points[i].y_m};
@@ -278,9 +354,9 @@ void Pilot::remember_sides(const Route& route) noexcept {
   }
 }
 
-void Pilot::explain(const SonarPath& path, const ManoeuvreChooser::Choice& choice,
-                    Plan& plan) const noexcept {
-  const PathReason found = asked_for_best_ ? PathReason::kNoPath : path.reason;
+void Pilot::explain(PathReason reason, const SonarPath& path,
+                    const ManoeuvreChooser::Choice& choice, Plan& plan) const noexcept {
+  const PathReason found = asked_for_best_ ? PathReason::kNoPath : reason;
   plan.reason = escaping_                                    ? PathReason::kStartBlocked
                 : goal_moved_ && found == PathReason::kFound ? PathReason::kGoalBlocked
                                                              : found;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "high_level/guidance/line.h"
 #include "high_level/guidance/manoeuvre.h"
 #include "high_level/guidance/zones.h"
 #include "mid_level/messages/command.h"
@@ -27,6 +28,13 @@ struct PilotOptions {
   Duration latency{};               // from a request to thrust that follows its plan
 };
 
+// What is made for.
+struct Destination {
+  WorldPoint goal;
+  bool stay = false;       // a place to wait at, not one to arrive at
+  std::optional<Leg> leg;  // that ends there and whose line is to be kept
+};
+
 class Pilot {
  public:
   explicit Pilot(const PilotOptions& options);
@@ -41,10 +49,9 @@ class Pilot {
   // Takes on what an operator changed.
   void tune(const Tunables& tunables) noexcept;
 
-  // Fills in space, start, goal, zones and sides of a request. stay: the goal is a place to wait
-  // at, not one to arrive at.
-  void ask(Time now, const Tracks& tracks, const VehicleState& state, const WorldPoint& goal,
-           bool stay, PathRequest& request) noexcept;
+  // Fills in space, start, goal, zones and sides of a request.
+  void ask(Time now, const Tracks& tracks, const VehicleState& state,
+           const Destination& destination, PathRequest& request) noexcept;
 
   // The plan made of the answer to the last request; fills in what the pilot decides.
   void decide(Time now, const SonarPath& path, const Tracks& tracks, const VehicleState& state,
@@ -57,14 +64,27 @@ class Pilot {
     Side side = Side::kNone;
   };
 
+  struct KeptLine {
+    Leg leg;
+    LineToKeep line;
+    bool rejoins = false;  // it is gone back to before its end
+  };
+
   [[nodiscard]] OwnMotion when_it_takes_effect(Time now, const VehicleState& state) const noexcept;
   void ask_for_sides(PathRequest& request) const noexcept;
+  void keep_line(const Destination& destination, bool start_is_free,
+                 const PathRequest& request) noexcept;
+  [[nodiscard]] Eigen::Vector2d end_of_ask(const Destination& destination,
+                                           const Eigen::Vector2d& start,
+                                           PathRequest& request) noexcept;
   void remember_sides(const Route& route) noexcept;
-  void take_route(const SonarPath& path) noexcept;
+  // Gives the reason that is true of the route.
+  [[nodiscard]] PathReason take_route(const SonarPath& path) noexcept;
+  void make_for_the_end_of_the_line() noexcept;
   void make_route(const SonarPath& path) noexcept;
   [[nodiscard]] bool asks_for_best() noexcept;
   [[nodiscard]] bool keeps_best(const SonarPath& path) noexcept;
-  void explain(const SonarPath& path, const ManoeuvreChooser::Choice& choice,
+  void explain(PathReason reason, const SonarPath& path, const ManoeuvreChooser::Choice& choice,
                Plan& plan) const noexcept;
 
   PilotOptions options_;
@@ -77,7 +97,10 @@ class Pilot {
   bool goal_is_close_ = false;  // to something: zones gave what it needs
   bool asked_for_best_ = false;
   bool stay_ = false;
-  bool holding_ = false;  // in the last plan
+  std::optional<KeptLine> line_;  // that is kept to
+  LineToKeep last_line_;          // on this leg
+  int free_asks_ = 0;             // to come, as the line could not be gone back to
+  bool holding_ = false;          // in the last plan
   Eigen::Vector2d own_W_ = Eigen::Vector2d::Zero();
   Route route_;
   bool stay_at_end_ = false;      // the route's end is a place to wait at

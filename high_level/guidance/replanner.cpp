@@ -85,14 +85,14 @@ const PathRequest* Replanner::request(Time now, std::uint64_t frame, Time frame_
 }
 
 const PathRequest* Replanner::request(Time now, const Tracks& tracks, const VehicleState& state,
-                                      const WorldPoint& goal, bool stay) noexcept {
+                                      const Destination& destination) noexcept {
   if (!pilot_ || !is_due(now, tracks.frame)) {
     return nullptr;
   }
   request_->id = next_id_++;
   request_->frame = tracks.frame;
-  pilot_->ask(now, tracks, state, goal, stay, *request_);
-  ask({request_->id, tracks.frame, now, tracks.captured, pose_of(state), goal});
+  pilot_->ask(now, tracks, state, destination, *request_);
+  ask({request_->id, tracks.frame, now, tracks.captured, pose_of(state), destination.goal});
   return request_.get();
 }
 

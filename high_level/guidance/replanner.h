@@ -52,10 +52,10 @@ class Replanner {
                                            const WorldPoint& goal,
                                            const PoseHistory& poses) noexcept;
 
-  // The same in the world, for what is known at this frame. stay: the goal is a place to wait at.
+  // The same in the world, for what is known at this frame.
   [[nodiscard]] const PathRequest* request(Time now, const Tracks& tracks,
-                                           const VehicleState& state, const WorldPoint& goal,
-                                           bool stay) noexcept;
+                                           const VehicleState& state,
+                                           const Destination& destination) noexcept;
   [[nodiscard]] const Plan* answer(Time now, const SonarPath& path, const Tracks& tracks,
                                    const VehicleState& state) noexcept;
 

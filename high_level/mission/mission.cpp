@@ -32,6 +32,7 @@ namespace {
   way.goal_count = 1;
   way.goals[0] = {goal.xy_m.x(), goal.xy_m.y()};
   way.link_lost = LinkLost::kGoOn;
+  way.legs = Legs::kFree;
   return way;
 }
 
@@ -184,6 +185,17 @@ void Mission::watch_blocked(GoalOutlook outlook, const WorldPoint& position, Tim
   } else {
     hold(position, MissionCause::kBlocked);
   }
+}
+
+std::optional<WorldPoint> Mission::line_begin() const noexcept {
+  if (!under_way() || definition_.legs == Legs::kFree) {
+    return std::nullopt;
+  }
+  if (status_.goal_index == 0) {
+    return home();
+  }
+  const Goal& last = definition_.goals[status_.goal_index - 1];
+  return WorldPoint{{last.x_m, last.y_m}};
 }
 
 bool Mission::is_last_goal() const noexcept {

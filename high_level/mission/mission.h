@@ -94,6 +94,8 @@ class Mission {
   [[nodiscard]] WorldPoint home() const noexcept { return {{status_.home_x_m, status_.home_y_m}}; }
   // What is made for now; while holding the place held.
   [[nodiscard]] WorldPoint goal() const noexcept { return {{status_.goal_x_m, status_.goal_y_m}}; }
+  // Where the line begins that is kept to on the way to the goal; nothing where any way will do.
+  [[nodiscard]] std::optional<WorldPoint> line_begin() const noexcept;
   [[nodiscard]] bool under_way() const noexcept { return status_.state == MissionState::kUnderWay; }
   [[nodiscard]] bool holding() const noexcept { return status_.state == MissionState::kHolding; }
 

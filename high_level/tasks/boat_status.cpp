@@ -20,6 +20,10 @@ void add_mission(const MissionStatus& m, Time now, ordered_json& reply) {
   reply["time_s"] = m.started == Time{} ? 0.0 : to_seconds(now - m.started);
   reply["goal_m"] = {m.goal_x_m, m.goal_y_m};
   reply["aborts"] = m.aborts;
+  if (m.keeps_line) {
+    reply["line"] = {{"begins_m", {m.line_begin_x_m, m.line_begin_y_m}},
+                     {"cross_track_m", m.cross_track_m}};
+  }
   if (m.blocked_since != Time{}) {
     reply["blocked"] = {{"for_s", to_seconds(now - m.blocked_since)}};
   }

@@ -103,8 +103,11 @@ void OperatorDesk::require_possible(const MissionDefinition& mission) const {
   if (const std::string no = options_.speeds.objection(mission.speed_m_s); !no.empty()) {
     throw StartupError("speed_m_s: " + no);
   }
-  if (mission.area_count > 0 && !options_.obeys_areas) {
+  if (mission.area_count > 0 && !options_.plans_in_world) {
     throw StartupError("fence_m, keep_out_m: the paper's planner knows none (planner.space)");
+  }
+  if (mission.legs != Legs::kFree && !options_.plans_in_world) {
+    throw StartupError("legs: the paper's planner keeps to no line (planner.space)");
   }
   for (std::uint32_t i = 0; i < mission.goal_count; ++i) {
     const WorldPoint goal{{mission.goals[i].x_m, mission.goals[i].y_m}};

@@ -28,7 +28,7 @@ struct DeskOptions {
   SpeedTable speeds = SpeedTable::proportional(0.01);
   Tunables tunables;            // as the configuration has them
   double least_margin_m = 0.0;  // [m] no margin is tuned below it
-  bool obeys_areas = true;      // the paper's planner knows no fence
+  bool plans_in_world = true;   // the paper's planner knows neither fence nor line
   // The mission at hand for a start that names none, unless one was given before.
   std::optional<MissionDefinition> at_hand{};
   bool starts_by_itself = false;  // that, once the boat is ready, unless somebody gives an order

@@ -164,6 +164,12 @@ void PlannerTask::step(Time now) noexcept {
   MissionStatus status = mission_.status();
   status.no_way = no_way_;
   status.no_way_since = no_way_ == NoWayCause::kNone ? Time{} : progress_.since();
+  if (const auto line = leg()) {
+    status.keeps_line = true;
+    status.line_begin_x_m = line->from_W.x();
+    status.line_begin_y_m = line->from_W.y();
+    status.cross_track_m = line->cross_track_m(position_.xy_m);
+  }
   tell(status, now);
 }
 
@@ -295,10 +301,16 @@ void PlannerTask::replan_in_world(Time now) noexcept {
     publish(replanner_.answer(now, path->value, water, state->value), now);
   }
   const auto* request =
-      replanner_.request(now, water, state->value, mission_.goal(), mission_.holding());
+      replanner_.request(now, water, state->value, {mission_.goal(), mission_.holding(), leg()});
   if (request != nullptr) {
     requests_.publish(*request, now);
   }
+}
+
+std::optional<Leg> PlannerTask::leg() const noexcept {
+  const auto begin = mission_.line_begin();
+  return begin && options_.replanner.pilot ? std::optional{Leg{begin->xy_m, mission_.goal().xy_m}}
+                                           : std::nullopt;
 }
 
 const Tracks& PlannerTask::with_areas(const Tracks& tracks, Time now) noexcept {

@@ -45,6 +45,8 @@ class PlannerTask final : public Task {
   void watch_thrusters(Time now) noexcept;
   [[nodiscard]] GoalOutlook goal_outlook() noexcept;
   void sail_as_the_mission_says(Time now) noexcept;
+  // Whose line is kept to.
+  [[nodiscard]] std::optional<Leg> leg() const noexcept;
   // What is known of the water: the tracks, and the mission's areas as walls.
   [[nodiscard]] const Tracks& with_areas(const Tracks& tracks, Time now) noexcept;
   void replan(Time now) noexcept;

@@ -113,6 +113,10 @@ void read_areas(const TomlTable& table, MissionDefinition& mission) {
   return static_cast<OnRestart>(table.choice("on_restart", {"hold", "resume"}));
 }
 
+[[nodiscard]] Legs read_legs(const TomlTable& table) {
+  return static_cast<Legs>(table.choice("legs", {"free", "line"}));
+}
+
 [[nodiscard]] Blocked read_blocked(const TomlTable& table) {
   return static_cast<Blocked>(table.choice("blocked", {"hold", "skip"}));
 }
@@ -153,12 +157,12 @@ MissionDefinition read_mission(const TomlTable& table, const MissionDefaults& de
                                 ? table.duration("link_lost_after_s", kLinkLostAfter_s)
                                 : defaults.link_lost_after;
   mission.on_restart = table.has("on_restart") ? read_on_restart(table) : defaults.on_restart;
+  mission.legs = table.has("legs") ? read_legs(table) : Legs::kFree;
   mission.blocked = table.has("blocked") ? read_blocked(table) : defaults.blocked;
   mission.blocked_patience = table.has("blocked_patience_s")
                                  ? table.duration("blocked_patience_s", kBlockedPatience_s)
                                  : defaults.blocked_patience;
   read_areas(table, mission);
-  require_done(table, "legs", "free");
   refuse_undone(table, "battery_low");
   require_done(table, "colregs", "off");
   return mission;

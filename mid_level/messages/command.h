@@ -102,6 +102,10 @@ struct MissionStatus {
   std::uint32_t skipped = 0;     // [-] waypoints left out since the start, as they were blocked
   double home_x_m = 0.0;         // [m] [world] where it set out from
   double home_y_m = 0.0;         // [m] [world]
+  bool keeps_line = false;       // to the next waypoint, from the last or from where it set out
+  double line_begin_x_m = 0.0;   // [m] [world] of that line; it ends at the goal
+  double line_begin_y_m = 0.0;   // [m] [world]
+  double cross_track_m = 0.0;    // [m] off that line, to starboard positive
   std::uint64_t aborts = 0;      // [-] obeyed so far: OperatorCommand::aborts of the last one
   std::uint64_t order = 0;       // [-] sequence of the last order answered, aborts apart
   OrderAnswer answer = OrderAnswer::kNone;  // to that order
@@ -118,8 +122,10 @@ struct MissionStatus {
         field("goal_index", &M::goal_index), field("goal_x_m", &M::goal_x_m),
         field("goal_y_m", &M::goal_y_m), field("blocked_since", &M::blocked_since),
         field("skipped", &M::skipped), field("home_x_m", &M::home_x_m),
-        field("home_y_m", &M::home_y_m), field("aborts", &M::aborts), field("order", &M::order),
-        field("answer", &M::answer), field("no_way", &M::no_way),
+        field("home_y_m", &M::home_y_m), field("keeps_line", &M::keeps_line),
+        field("line_begin_x_m", &M::line_begin_x_m), field("line_begin_y_m", &M::line_begin_y_m),
+        field("cross_track_m", &M::cross_track_m), field("aborts", &M::aborts),
+        field("order", &M::order), field("answer", &M::answer), field("no_way", &M::no_way),
         field("no_way_since", &M::no_way_since));
   }
 };

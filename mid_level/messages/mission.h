@@ -41,6 +41,15 @@ enum class Blocked : std::uint8_t {
   return enumerators_to<Blocked::kSkip>("hold", "skip");
 }
 
+// What is kept to between the mission's waypoints.
+enum class Legs : std::uint8_t {
+  kFree,  // any way that is clear
+  kLine,  // the line from one to the next
+};
+[[nodiscard]] constexpr auto enumerators(Legs) noexcept {
+  return enumerators_to<Legs::kLine>("free", "line");
+}
+
 struct Goal {
   double x_m = 0.0;  // [m] [world]
   double y_m = 0.0;  // [m] [world]
@@ -86,6 +95,7 @@ struct MissionDefinition {
   LinkLost link_lost = LinkLost::kGoOn;
   Duration link_lost_after{};  // [ns] > 0 without a heartbeat of the commander
   OnRestart on_restart = OnRestart::kHold;
+  Legs legs = Legs::kFree;
   Blocked blocked = Blocked::kHold;
   Duration blocked_patience{};          // [ns] >= 0 that a waypoint is waited for
   std::array<Goal, kMaxGoals> goals{};  // waypoints in order, the goal last
@@ -104,9 +114,9 @@ struct MissionDefinition {
         field("goal_radius_m", &M::goal_radius_m).within(0.0, 1e3),
         field("goal_count", &M::goal_count), field("link_lost", &M::link_lost),
         field("link_lost_after", &M::link_lost_after), field("on_restart", &M::on_restart),
-        field("blocked", &M::blocked), field("blocked_patience", &M::blocked_patience),
-        field("goals", &M::goals, &M::goal_count), field("area_count", &M::area_count),
-        field("areas", &M::areas, &M::area_count));
+        field("legs", &M::legs), field("blocked", &M::blocked),
+        field("blocked_patience", &M::blocked_patience), field("goals", &M::goals, &M::goal_count),
+        field("area_count", &M::area_count), field("areas", &M::areas, &M::area_count));
   }
 };
 

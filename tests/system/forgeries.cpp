@@ -146,7 +146,7 @@ TEST_CASE("forgeries: random bytes and heads crash no task and no onlooker", "[s
 }
 
 TEST_CASE("forgeries: what is not sane leaves the commands as if it had not been published",
-          "[system]") {
+          "[system][plain]") {
   require_equal_twins("default");
 }
 

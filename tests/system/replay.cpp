@@ -61,7 +61,7 @@ TEST_CASE("replay: one parameter that is changed shows in the first decision tha
 }
 
 TEST_CASE("replay: one field of one publication that is changed is found there and nowhere else",
-          "[system]") {
+          "[system][plain]") {
   const Scratch scratch{"replay"};
   const fs::path file = sailed(scratch, "paper-static", "default");
   const fs::path changed = scratch.file("changed.mcap");
@@ -168,7 +168,8 @@ TEST_CASE("replay: of the first and the last ping a recorder may have but what w
   CHECK(at_end < 5);
 }
 
-TEST_CASE("replay: where the recording begins late, tasks count from when they agree", "[system]") {
+TEST_CASE("replay: where the recording begins late, tasks count from when they agree",
+          "[system][plain]") {
   const Scratch scratch{"replay"};
   const fs::path file = sailed(scratch, "paper-static", "default");
   const fs::path late = scratch.file("late.mcap");

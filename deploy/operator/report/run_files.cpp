@@ -161,6 +161,12 @@ std::string result_json(const RunResult& result) {
       result.origin_deg ? point(*result.origin_deg, kDegreeDecimals) : Json(nullptr);
   json["version"] = result.version;
   json["counted_from"] = to_string(result.counted_from);
+  if (result.cross_track) {
+    json["cross_track"] = {{"rms_m", metric(result.cross_track->rms_m)},
+                           {"worst_m", metric(result.cross_track->worst_m)},
+                           {"settled_rms_m", metric(result.cross_track->settled_rms_m)},
+                           {"settled_worst_m", metric(result.cross_track->settled_worst_m)}};
+  }
   if (result.outcome == "fault") {
     json["fault"] = result.fault;
   }

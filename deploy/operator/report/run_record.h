@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "deploy/operator/report/cross_track.h"
 #include "mid_level/geometry/moving_obstacle.h"
 #include "mid_level/messages/path.h"
 
@@ -117,6 +118,7 @@ struct RunResult {
   std::uint64_t side_flips = 0;
   std::optional<double> first_side_flip_s;  // not written
   double heading_travel_deg = 0.0;
+  std::optional<CrossTrack> cross_track;  // not written where no line was kept
   Percentiles plan_time_us;
   Percentiles ping_to_command_us;
   std::uint64_t overruns = 0;

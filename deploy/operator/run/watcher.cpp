@@ -224,6 +224,7 @@ void RunWatcher::add_row(const WorldTruth& truth) {
         to_deg(std::abs(wrap_to_pi(truth.heading_rad - *heading_10hz_rad_)));
   }
   heading_10hz_rad_ = truth.heading_rad;
+  cross_track_.add(status_, truth);
   TrajectoryRow row;
   row.t_s = truth.scenario_time_s;
   row.x_m = truth.x_m;
@@ -387,6 +388,7 @@ RunRecord RunWatcher::finish() {
   result.mean_speed_m_s = result.time_s > 0.0 ? result.path_length_m / result.time_s : 0.0;
   result.side_flips = side_flips_.flips().count;
   result.first_side_flip_s = side_flips_.flips().first_s;
+  result.cross_track = cross_track_.seen();
   result.plan_time_us = plan_times_us_.percentiles();
   result.ping_to_command_us = ping_to_command_us_.percentiles();
   count_rung_until(result.time_s);

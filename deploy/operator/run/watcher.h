@@ -118,6 +118,7 @@ class RunWatcher {
   KeptRows rows_;
   KeptPlans plans_;
   SideFlipCounter side_flips_;
+  CrossTrackMeter cross_track_;
   PercentileSample plan_times_us_;
   PercentileSample ping_to_command_us_;
 };

@@ -49,7 +49,7 @@ waypoints_m = [[2.0, 5.0], [3.0, 6.0]]
 goal_m = [0.0, 20.0]
 goal_radius_m = 1.0
 speed_m_s = 0.74
-legs = "free"
+legs = "line"
 link_lost = "return"
 link_lost_after_s = 8.0
 on_restart = "resume"
@@ -61,6 +61,7 @@ keep_out_m = [[[1, 1], [2, 1], [2, 2]], [[4, 4], [5, 4], [5, 5]]]
   CHECK(mission.goal_count == 3);
   CHECK(mission.goals[1].y_m == Approx(6.0));
   CHECK(mission.speed_m_s == Approx(0.74));
+  CHECK(mission.legs == Legs::kLine);
   CHECK(mission.link_lost == LinkLost::kReturn);
   CHECK(mission.link_lost_after == from_seconds(8));
   CHECK(mission.on_restart == OnRestart::kResume);
@@ -98,6 +99,8 @@ TEST_CASE("mission file: what is wrong is refused with its line", "[config]") {
             .starts_with("m.toml:2: link_lost: must be one of"));
   CHECK(refusal_of("goal_m = [0, 1]\non_restart = \"go on\"")
             .starts_with("m.toml:2: on_restart: must be one of"));
+  CHECK(refusal_of("goal_m = [0, 1]\nlegs = \"curved\"")
+            .starts_with("m.toml:2: legs: must be one of"));
   CHECK(refusal_of("goal_m = [0, 1]\nblocked = \"push\"")
             .starts_with("m.toml:2: blocked: must be one of"));
   CHECK(refusal_of("goal_m = [0, 1]\nblocked_patience_s = -1.0")
@@ -106,8 +109,8 @@ TEST_CASE("mission file: what is wrong is refused with its line", "[config]") {
 }
 
 TEST_CASE("mission file: what is not done yet is refused, not taken and forgotten", "[config]") {
-  CHECK(refusal_of("goal_m = [0, 1]\nlegs = \"line\"") ==
-        "m.toml:2: legs: only \"free\" is done yet");
+  CHECK(refusal_of("goal_m = [0, 1]\ncolregs = \"prefer\"") ==
+        "m.toml:2: colregs: only \"off\" is done yet");
   CHECK(refusal_of("goal_m = [0, 1]\nbattery_low = \"return\"") ==
         "m.toml:2: battery_low: is not done yet: leave it out");
 }

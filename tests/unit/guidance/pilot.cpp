@@ -5,52 +5,12 @@
 
 #include "tests/support/allocations.h"
 #include "tests/support/catch.h"
-#include "tests/unit/guidance/support.h"
+#include "tests/unit/guidance/bridge.h"
 
 namespace lodesman::testing {
 namespace {
 
 using Vec = Eigen::Vector2d;
-
-PilotOptions pilot_options() {
-  PilotOptions options;
-  options.zones = default_zones();
-  options.zones.margin_m = 2.0;  // wide, so that beside an obstacle there is a zone to be in
-  options.response = default_response();
-  options.manoeuvres = default_manoeuvres();
-  options.side_gain_m = 1.5;
-  options.narrow_speed_share = 0.5;
-  return options;
-}
-
-VehicleState state_at(double x_m, double y_m, double surge_m_s = 0.0) {
-  VehicleState state;
-  state.x_m = x_m;
-  state.y_m = y_m;
-  state.surge_m_s = surge_m_s;
-  return state;
-}
-
-// A pilot with its last request and plan.
-struct Bridge {
-  std::unique_ptr<Pilot> pilot = std::make_unique<Pilot>(pilot_options());
-  std::unique_ptr<PathRequest> request = std::make_unique<PathRequest>();
-  std::unique_ptr<SonarPath> path = std::make_unique<SonarPath>();
-  std::unique_ptr<Plan> plan = std::make_unique<Plan>();
-
-  void ask(const Tracks& tracks, const VehicleState& state, const Vec& goal, bool stay = false) {
-    pilot->ask(at_s(0), tracks, state, {goal}, stay, *request);
-  }
-  void decide(const Tracks& tracks, const VehicleState& state, PathReason reason,
-              std::initializer_list<PathPoint> points) {
-    path->reason = reason;
-    path->point_count = 0;
-    for (const PathPoint& point : points) {
-      path->points[path->point_count++] = point;
-    }
-    pilot->decide(at_s(0), *path, tracks, state, *plan);
-  }
-};
 
 }  // namespace
 
@@ -84,7 +44,7 @@ TEST_CASE("pilot: it plans from where the vehicle will be when the plan takes ef
   VehicleState state = state_at(0, 0, 1.0);
   state.valid_at = at_s(5.0);
   state.heading_rad = to_rad(90.0);
-  bridge.pilot->ask(at_s(5.1), tracks_of({}), state, {{20.0, 0.0}}, false, *bridge.request);
+  bridge.pilot->ask(at_s(5.1), tracks_of({}), state, {{{20.0, 0.0}}, false, {}}, *bridge.request);
   CHECK(bridge.request->start_x_m == Approx(0.25));
   CHECK(bridge.request->start_y_m == Approx(0.0).margin(1e-9));
 }

@@ -195,12 +195,12 @@ TEST_CASE("replanner: in the world it asks once a frame, from tracks, and follow
   tracks.captured = s(0.9);
   VehicleState state;
   state.valid_at = s(1.0);
-  const auto request = replanner.request(s(1.0), tracks, state, {{0.0, 20.0}}, false);
+  const auto request = replanner.request(s(1.0), tracks, state, {{{0.0, 20.0}}, false, {}});
   REQUIRE(request != nullptr);
   CHECK(request->id == 8);
   CHECK(request->frame == 5);
   CHECK(request->space == PathSpace::kWorld);
-  CHECK(replanner.request(s(1.05), tracks, state, {{0.0, 20.0}}, false) == nullptr);
+  CHECK(replanner.request(s(1.05), tracks, state, {{{0.0, 20.0}}, false, {}}) == nullptr);
   auto path = refused(*request, PathReason::kFound);
   path->points[0] = {0.0, 0.0};
   path->points[1] = {0.0, 20.0};
@@ -213,13 +213,13 @@ TEST_CASE("replanner: in the world it asks once a frame, from tracks, and follow
   CHECK(plan->steer_by == SteerBy::kLine);
   CHECK(plan->waypoint_count == 2);
   CHECK(replanner.answer(s(1.15), *path, tracks, state) == nullptr);
-  CHECK(replanner.request(s(1.2), tracks, state, {{0.0, 20.0}}, false) ==
+  CHECK(replanner.request(s(1.2), tracks, state, {{{0.0, 20.0}}, false, {}}) ==
         nullptr);  // the same frame
   tracks.frame = 6;
-  CHECK(replanner.request(s(1.2), tracks, state, {{0.0, 20.0}}, false) != nullptr);
+  CHECK(replanner.request(s(1.2), tracks, state, {{{0.0, 20.0}}, false, {}}) != nullptr);
 }
 
 TEST_CASE("replanner: without a pilot it never asks in the world", "[high_level][guidance]") {
   Replanner replanner{paper()};
-  CHECK(replanner.request(s(1.0), Tracks{}, VehicleState{}, {{0.0, 20.0}}, false) == nullptr);
+  CHECK(replanner.request(s(1.0), Tracks{}, VehicleState{}, {{{0.0, 20.0}}, false, {}}) == nullptr);
 }

@@ -55,6 +55,31 @@ TEST_CASE("mission: it waits for its start and ends at the last goal", "[high_le
   CHECK(mission.status().ended == s(5));
 }
 
+TEST_CASE("mission: the line that is kept to begins where it set out, then at the last waypoint",
+          "[high_level][mission]") {
+  Ordered ordered;
+  Mission& mission = ordered.mission;
+  MissionDefinition definition = mission_through_5_and_20();
+  definition.legs = Legs::kLine;
+  definition.link_lost = LinkLost::kReturn;
+  mission.set_at_hand(definition);
+  CHECK_FALSE(mission.line_begin());
+  ordered.give(OperatorOrder::kStart, s(1), {{3, 1}});
+  REQUIRE(mission.line_begin());
+  CHECK(mission.line_begin()->xy_m == Eigen::Vector2d{3, 1});
+  mission.advance({{0, 5}}, s(2));
+  REQUIRE(mission.line_begin());
+  CHECK(mission.line_begin()->xy_m == Eigen::Vector2d{0, 5});
+  ordered.give(OperatorOrder::kHold, s(3), {{1, 8}});
+  CHECK_FALSE(mission.line_begin());
+  ordered.give(OperatorOrder::kResume, s(4), {{1, 8}});
+  CHECK(mission.line_begin()->xy_m == Eigen::Vector2d{0, 5});
+  // The way back is no leg of it.
+  mission.watch_link({7, s(1), s(1)}, {{1, 8}}, s(20));
+  CHECK(mission.under_way());
+  CHECK_FALSE(mission.line_begin());
+}
+
 TEST_CASE("mission: a waypoint to which there is no way is waited for, then left out or held at",
           "[high_level][mission]") {
   using enum GoalOutlook;

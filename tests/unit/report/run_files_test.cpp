@@ -126,6 +126,29 @@ TEST_CASE("result.json: exactly the contract's keys in its order", "[report]") {
   CHECK(json["rungs"].is_object());
 }
 
+TEST_CASE("result.json: how well lines were kept to is told where one was", "[report]") {
+  cli::CrossTrackMeter meter;
+  MissionStatus status;
+  status.goal_y_m = 40.0;
+  WorldTruth truth;
+  truth.x_m = 2.0;
+  meter.add(status, truth);
+  CHECK_FALSE(meter.seen());
+  status.keeps_line = true;
+  meter.add(status, truth);
+  truth = {};
+  truth.x_m = -0.5;
+  truth.y_m = 20.0;
+  meter.add(status, truth);
+  cli::RunResult result;
+  result.cross_track = meter.seen();
+  const Json json = Json::parse(cli::result_json(result))["cross_track"];
+  CHECK(json["worst_m"] == Approx(2.0));
+  CHECK(json["rms_m"] == Approx(std::sqrt(4.25 / 2)).margin(1e-3));
+  CHECK(json["settled_worst_m"] == Approx(0.5));
+  CHECK(json["settled_rms_m"] == Approx(0.5));
+}
+
 TEST_CASE("result.json: a fault is told at the end, and only then", "[report]") {
   cli::RunResult result;
   result.outcome = "fault";
