@@ -16,7 +16,7 @@ constexpr double kAhead_m = 30.0;    // what lies farther along the line does no
 constexpr double kLeave_m = 6.0;     // so far before what lies on the line it is left
 constexpr double kRejoin_m = 4.0;    // and so far after it gone back to
 constexpr double kLook_m = 0.5;      // from one look at the line to the next
-constexpr double kOutside_m = 0.05;  // of a zone
+constexpr double kClearOf_m = 0.05;  // off a zone
 
 // What of the line within a stretch lies in zones: the first and the last of it.
 struct BlockedStretch {
@@ -29,7 +29,7 @@ struct BlockedStretch {
                                              double from_m, double to_m) noexcept {
   BlockedStretch blocked;
   for (double along_m = from_m; along_m <= to_m; along_m += kLook_m) {
-    if (zone_clearance_m(zones, leg.at(along_m)) < kOutside_m) {
+    if (zone_clearance_m(zones, leg.at(along_m)) < kClearOf_m) {
       blocked.first_m = blocked.any ? blocked.first_m : along_m;
       blocked.last_m = along_m;
       blocked.any = true;
@@ -41,7 +41,7 @@ struct BlockedStretch {
 [[nodiscard]] bool is_clear_between(const PathRequest& zones, const Vec& a, const Vec& b) noexcept {
   const double length_m = (b - a).norm();
   for (double along_m = 0.0; along_m < length_m; along_m += kLook_m) {
-    if (zone_clearance_m(zones, a + along_m / length_m * (b - a)) < kOutside_m) {
+    if (zone_clearance_m(zones, a + along_m / length_m * (b - a)) < kClearOf_m) {
       return false;
     }
   }
@@ -53,7 +53,7 @@ struct BlockedStretch {
                                   double from_m) noexcept {
   const double end_m = std::min(from_m + kAhead_m, leg.length_m());
   double along_m = from_m;
-  while (along_m < end_m && zone_clearance_m(zones, leg.at(along_m)) < kOutside_m) {
+  while (along_m < end_m && zone_clearance_m(zones, leg.at(along_m)) < kClearOf_m) {
     along_m += kLook_m;
   }
   return along_m < end_m ? along_m : leg.length_m();

@@ -178,7 +178,7 @@ Vec Pilot::end_of_ask(const Destination& destination, const Vec& start,
   if (line_ && line_->rejoins) {
     return within_reach(own_W_, line_->leg.at(line_->line.rejoin_m));
   }
-  const Vec end = within_reach(own_W_, goal);
+  Vec end = within_reach(own_W_, goal);
   const bool far = end != goal;
   stay_ = stay_ && !far;
   goal_is_close_ = make_room(request, end);
