@@ -110,8 +110,8 @@ void Pilot::ask(Time now, const Tracks& tracks, const VehicleState& state,
                 const Destination& destination, PathRequest& request) noexcept {
   const Vec& goal = destination.goal.xy_m;
   if (goal != best_for_W_) {
-    best_
-        .reset();  // another waypoint, or a place to hold: it and the route stood for the last goal
+    // Another waypoint, or a place to hold: all this stood for the last goal.
+    best_.reset();
     route_.clear();
     last_line_ = {};
     free_asks_ = 0;
@@ -278,8 +278,7 @@ bool Pilot::keeps_best(const SonarPath& path) noexcept {
 PathReason Pilot::take_route(const SonarPath& path) noexcept {
   const bool found = path.reason == PathReason::kFound;
   if (line_ && line_->rejoins && !found && path.reason != PathReason::kLimit) {
-    make_for_the_end_of_the_line();
-    return PathReason::kFound;
+    return make_for_the_end_of_the_line(path.reason);
   }
   const bool best_kept = keeps_best(path);
   if (path.reason == PathReason::kLimit && route_.count > 1) {
@@ -301,21 +300,23 @@ PathReason Pilot::take_route(const SonarPath& path) noexcept {
 
 // The line cannot be gone back to where it was to be: until the next answer on the way that there
 // was, or straight, as far as the manoeuvres allow.
-void Pilot::make_for_the_end_of_the_line() noexcept {
+PathReason Pilot::make_for_the_end_of_the_line(PathReason reason) noexcept {
   free_asks_ = kFreeAsks;
-  if (route_.count < 2) {
-    route_.clear();
-    (void)route_.add(own_W_);
-    (void)route_.add(line_->leg.to_W);
-    stay_at_end_ = false;
+  if (route_.count > 1) {
+    return PathReason::kFound;
   }
+  route_.clear();
+  (void)route_.add(own_W_);
+  (void)route_.add(line_->leg.to_W);
+  stay_at_end_ = false;
+  return reason;
 }
 
 void Pilot::make_route(const SonarPath& path) noexcept {
   route_.clear();
   const bool on_line = line_ && (line_->line.is_clear || line_->line.leave_m > line_->line.along_m);
   (void)route_.add(on_line ? line_->leg.at(line_->line.along_m) : own_W_);
-  if (on_line && line_->line.is_clear && path.reason == PathReason::kFound) {
+  if (line_ && line_->line.is_clear && path.reason == PathReason::kFound) {
     (void)route_.add({asked_->goal_x_m, asked_->goal_y_m});
     return;
   }

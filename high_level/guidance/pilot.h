@@ -80,7 +80,7 @@ class Pilot {
   void remember_sides(const Route& route) noexcept;
   // Gives the reason that is true of the route.
   [[nodiscard]] PathReason take_route(const SonarPath& path) noexcept;
-  void make_for_the_end_of_the_line() noexcept;
+  [[nodiscard]] PathReason make_for_the_end_of_the_line(PathReason reason) noexcept;
   void make_route(const SonarPath& path) noexcept;
   [[nodiscard]] bool asks_for_best() noexcept;
   [[nodiscard]] bool keeps_best(const SonarPath& path) noexcept;

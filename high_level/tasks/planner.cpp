@@ -164,12 +164,12 @@ void PlannerTask::step(Time now) noexcept {
   MissionStatus status = mission_.status();
   status.no_way = no_way_;
   status.no_way_since = no_way_ == NoWayCause::kNone ? Time{} : progress_.since();
-  if (const auto line = leg()) {
-    status.keeps_line = true;
-    status.line_begin_x_m = line->from_W.x();
-    status.line_begin_y_m = line->from_W.y();
-    status.cross_track_m = line->cross_track_m(position_.xy_m);
-  }
+  // What the program before this one said of its line is not to stand.
+  const auto line = leg();
+  status.keeps_line = line.has_value();
+  status.line_begin_x_m = line ? line->from_W.x() : 0.0;
+  status.line_begin_y_m = line ? line->from_W.y() : 0.0;
+  status.cross_track_m = line ? line->cross_track_m(position_.xy_m) : 0.0;
   tell(status, now);
 }
 

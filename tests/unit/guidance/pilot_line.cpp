@@ -63,6 +63,7 @@ TEST_CASE("pilot: a line that cannot be gone back to is left alone for a while",
   CHECK((goal_of(*bridge.request) - kNorth.to_W).norm() > 1.0);
   bridge.decide(none, state, PathReason::kNoPath, {});
   CHECK_FALSE(bridge.plan->stay_at_end);
+  CHECK(bridge.plan->reason == PathReason::kNoPath);  // no way is there yet
   CHECK((end_of(*bridge.plan) - kNorth.to_W).norm() < 1e-6);
   int free_asks = 0;
   do {
@@ -72,6 +73,9 @@ TEST_CASE("pilot: a line that cannot be gone back to is left alone for a while",
   } while ((goal_of(*bridge.request) - kNorth.to_W).norm() < 1.0 && free_asks < 100);
   CHECK(free_asks > 5);
   CHECK(free_asks < 30);
+  // Now there is one, and it stays.
+  bridge.decide(none, state, PathReason::kNoPath, {});
+  CHECK(bridge.plan->reason == PathReason::kFound);
 }
 
 TEST_CASE("pilot: at a waypoint in a zone a line ends where there is room", "[guidance]") {

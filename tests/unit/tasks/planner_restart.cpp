@@ -90,10 +90,14 @@ TEST_CASE("planner restart: a mission that says so is sailed on with, at its goa
 TEST_CASE("planner restart: a mission that says hold is held where the boat is, once that is known",
           "[high_level][tasks]") {
   LeftBoard left{OnRestart::kHold};
+  left.said.keeps_line = true;
+  left.said.cross_track_m = 3.0;
   left.succeed(seconds{1});
   CHECK(left.after_step().state == MissionState::kUnderWay);  // and steers by nothing
   left.estimate(8.0);
   const MissionStatus held = left.after_step();
+  CHECK_FALSE(held.keeps_line);
+  CHECK(held.cross_track_m == Approx(0.0));
   CHECK(held.state == MissionState::kHolding);
   CHECK(held.cause == MissionCause::kRestart);
   CHECK(held.goal_y_m == Approx(8.0));
