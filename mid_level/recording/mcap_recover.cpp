@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mid_level/recording/mcap_recover.h"
 
+#include <algorithm>
 #include <map>
 
 namespace lodesman {
@@ -33,22 +34,36 @@ void copy(McapItem item, const McapReader& reader, Ids& ids, McapWriter& to) {
   }
 }
 
-[[nodiscard]] McapRecovery ended(const McapReader& reader, const McapSource& from,
-                                 std::uint64_t messages) {
-  return {reader.ending(),      reader.reason(),  messages,
-          reader.chunk_count(), reader.damaged(), from.size_bytes() - reader.position()};
+void count(const McapMessage& message, McapRecovery& recovery) {
+  ++recovery.messages;
+  recovery.first_ns = std::min(recovery.first_ns, message.log_time_ns);
+  recovery.last_ns = std::max(recovery.last_ns, message.log_time_ns);
+}
+
+void end(const McapReader& reader, const McapSource& from, McapRecovery& recovery) {
+  recovery.ending = reader.ending();
+  recovery.chunks = reader.chunk_count();
+  recovery.damaged = reader.damaged();
+  recovery.lost_bytes = from.size_bytes() - reader.position();
+  recovery.reason = recovery.ending == McapEnding::kWhole && recovery.damaged > 0
+                        ? "is closed, but damaged in between"
+                        : reader.reason();
 }
 
 }  // namespace
 
 McapRecovery recover(McapSource& from, McapWriter& to) {
   McapReader reader{from};
+  McapRecovery recovery;
   Ids ids;
   for (McapItem item = reader.next(); item != McapItem::kEnd; item = reader.next()) {
     copy(item, reader, ids, to);
+    if (item == McapItem::kMessage) {
+      count(reader.message(), recovery);
+    }
   }
   to.close_chunk();
-  McapRecovery recovery = ended(reader, from, to.message_count());
+  end(reader, from, recovery);
   to.add(McapMetadata{"recovered",
                       {{"reason", recovery.reason},
                        {"damaged", std::to_string(recovery.damaged)},
@@ -59,11 +74,14 @@ McapRecovery recover(McapSource& from, McapWriter& to) {
 
 McapRecovery look_through(McapSource& from) {
   McapReader reader{from};
-  std::uint64_t messages = 0;
+  McapRecovery recovery;
   for (McapItem item = reader.next(); item != McapItem::kEnd; item = reader.next()) {
-    messages += item == McapItem::kMessage ? 1 : 0;
+    if (item == McapItem::kMessage) {
+      count(reader.message(), recovery);
+    }
   }
-  return ended(reader, from, messages);
+  end(reader, from, recovery);
+  return recovery;
 }
 
 }  // namespace lodesman

@@ -90,18 +90,23 @@ power_off() {
       -exec rmdir {} \; 2>/dev/null || true
 }
 
-# row <what> <milliseconds...>: of the table: how often, the median and the worst.
+# row <what> <milliseconds...>: of the table; what has been there before becomes one row with that.
 row() {
   local what=$1
   shift
-  printf '%s\n' "$@" | sort -n | awk -v what="$what" '{ v[NR] = $1 / 1000 }
-    END { printf "| %s | %d | %.2f | %.2f |\n", what, NR, v[int((NR + 1) / 2)], v[NR] }' >>"$place/table"
+  printf '%s\t%s\n' "$what" "$1" >>"$place/table"
+  [ $# -eq 1 ] || row "$what" "${@:2}"
 }
 
-# print_table <where>: of all rows.
+# print_table <where>: of all rows: how often, the median and the worst.
 print_table() {
+  local what
   printf '\n| %s | times | median s | worst s |\n|---|---|---|---|\n' "$1"
-  cat "$place/table"
+  awk -F '\t' '!seen[$1]++ { print $1 }' "$place/table" | while IFS= read -r what; do
+    awk -F '\t' -v what="$what" '$1 == what { print $2 }' "$place/table" | sort -n |
+      awk -v what="$what" '{ v[NR] = $1 / 1000 }
+        END { printf "| %s | %d | %.2f | %.2f |\n", what, NR, v[int((NR + 1) / 2)], v[NR] }'
+  done
 }
 
 # Of what `boat_says`, which whoever sources this file defines: `lodesman status --json` on one line.

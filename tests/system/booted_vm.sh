@@ -7,9 +7,10 @@
 # under way; the power cut under way and behind an emergency stop; a kernel that panics under way, and a
 # hardware watchdog. Prints a table of times, and fails at the first thing that is not as it should be.
 # Wants root, and packages as deploy/packages.sh names them.
-#   tests/system/booted_vm.sh [--keep DIR]
-# DIR: where the machine's disk is kept for the next run, which then need not make it. On two busy cores all
-# of it takes a quarter of an hour.
+#   tests/system/booted_vm.sh [--keep DIR] [--cuts N]
+# DIR: where the machine's disk is kept for the next run, which then need not make it. N: how often the power
+# is cut under way, once where it is not said. On two busy cores all of it takes a quarter of an hour, and
+# three minutes more for each further cut.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . deploy/packages.sh
@@ -17,10 +18,15 @@ cd "$(dirname "$0")/../.."
 
 bin=build/release/bin
 kept=
-case ${1:-} in
-  --keep) kept=$(realpath -m "$2") ;;
-  ?*) fail "$1: no such option" ;;
-esac
+cuts=1
+while [ $# -gt 0 ]; do
+  case $1 in
+    --keep) kept=$(realpath -m "$2") ;;
+    --cuts) cuts=$2 ;;
+    *) fail "$1: no such option" ;;
+  esac
+  shift 2
+done
 place=$(mktemp -d)
 image=${kept:-$place/image}
 segment=lodesman-vm-$$
@@ -29,6 +35,7 @@ by_id=/dev/serial/by-id/usb-QEMU_QEMU_USB_SERIAL
 . tests/system/virtual_machine.sh
 devices=
 propellers=
+lost_of_recordings=()
 
 clean_up() {
   local process
@@ -201,21 +208,38 @@ pull_thrusters() {
   get_under_way
 }
 
+# At some moment between two chunks of the recording.
 cut_power_under_way() {
-  local before cut
+  local before cut part up_s asked lost_ms
   get_under_way
   before=$(boot_of)
-  cut=$(now_ms)
+  part=$(inside "ls -t $state/recordings/*.part | head -n 1")
+  sleep "1.$((RANDOM % 10))"
+  up_s=$(inside cut -d "' '" -f 1 /proc/uptime)
+  asked=$(now_ms)
   power_cut
+  cut=$(now_ms)
   still_row "the power cut under way" "$cut"
+  lost_ms=$(awk "BEGIN { printf \"%d\", $up_s * 1000 + $cut - $asked }")
   cut=$(now_ms)
   switch_on
   plug_all
   comes_back "$before" "$cut" "power on after the cut"
   judge_disk
-  [ "$(inside ls $state)" = "" ] || fail "the state is not as it was: $(inside ls -la $state)"
+  [ "$(inside ls $state)" = recordings ] || fail "the state is not as it was: $(inside ls -la $state)"
+  judge_recording "$part" "$lost_ms"
   devices_work "power on after the cut" "$cut"
   ! first_after "$cut" turning || give_up "the propellers turned after the power cut"
+}
+# judge_recording <file> <milliseconds since its machine's start at the cut>: all of it can be had but for
+# the last second.
+judge_recording() {
+  local said lost_ms
+  said=$(inside lodesman recover --json "$1") || fail "the recording cannot be recovered: $said"
+  lost_ms=$(awk -v cut="$2" 'match($0, /"last_s":[0-9.]+/) {
+    printf "%d", cut - 1000 * substr($0, RSTART + 9, RLENGTH - 9) }' <<<"$said")
+  if [ -z "$lost_ms" ] || [ "$lost_ms" -ge 1000 ]; then fail "the recording ends $lost_ms ms before the cut: $said"; fi
+  lost_of_recordings+=("$lost_ms")
 }
 
 # Its word is on the disk a moment after it is confirmed.
@@ -289,7 +313,11 @@ devices_work "reboot" "$start"
 sail
 pull_ahrs
 pull_thrusters
-cut_power_under_way
+for ((i = 1; i <= cuts; i++)); do
+  [ "$i" -eq 1 ] || arm_it
+  cut_power_under_way
+done
+row "the power cut under way, what of the recording is lost" "${lost_of_recordings[@]}"
 cut_power_when_stopped
 panic
 print_table "in the virtual machine"

@@ -103,19 +103,30 @@ void remove_left_over(const fs::path& part) {
   return recovery;
 }
 
+// [s] since the machine's start; nothing where there is no message.
+[[nodiscard]] nlohmann::ordered_json seconds_json(const McapRecovery& recovery, std::uint64_t ns) {
+  return recovery.messages == 0 ? nlohmann::ordered_json{}
+                                : nlohmann::ordered_json(static_cast<double>(ns) * 1e-9);
+}
+
+void print_json(const RecoverOptions& options, const McapRecovery& recovery, bool is_whole,
+                const fs::path& out) {
+  nlohmann::ordered_json json{{"file", options.file}, {"whole", is_whole}};
+  json["out"] = is_whole ? nlohmann::ordered_json{} : nlohmann::ordered_json{out.string()};
+  json["reason"] = is_whole ? nlohmann::ordered_json{} : nlohmann::ordered_json{recovery.reason};
+  json["messages"] = recovery.messages;
+  json["chunks"] = recovery.chunks;
+  json["damaged"] = recovery.damaged;
+  json["lost_bytes"] = recovery.lost_bytes;
+  json["first_s"] = seconds_json(recovery, recovery.first_ns);
+  json["last_s"] = seconds_json(recovery, recovery.last_ns);
+  fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
 void print(const RecoverOptions& options, const McapRecovery& recovery, const fs::path& out) {
   const bool is_whole = recovery.ending == McapEnding::kWhole && recovery.damaged == 0;
-  const std::string reason =
-      recovery.ending == McapEnding::kWhole ? "is closed, but damaged in between" : recovery.reason;
   if (options.common.json) {
-    nlohmann::ordered_json json{{"file", options.file}, {"whole", is_whole}};
-    json["out"] = is_whole ? nlohmann::ordered_json{} : nlohmann::ordered_json{out.string()};
-    json["reason"] = is_whole ? nlohmann::ordered_json{} : nlohmann::ordered_json{reason};
-    json["messages"] = recovery.messages;
-    json["chunks"] = recovery.chunks;
-    json["damaged"] = recovery.damaged;
-    json["lost_bytes"] = recovery.lost_bytes;
-    fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    print_json(options, recovery, is_whole, out);
     return;
   }
   if (options.common.quiet) {
@@ -126,8 +137,13 @@ void print(const RecoverOptions& options, const McapRecovery& recovery, const fs
     return;
   }
   fmt::print("{}: {}\n{}: {} messages from {} chunks; {} bytes at the end could not be used\n",
-             options.file, reason, out.string(), recovery.messages, recovery.chunks,
+             options.file, recovery.reason, out.string(), recovery.messages, recovery.chunks,
              recovery.lost_bytes);
+  if (recovery.messages > 0) {
+    fmt::print("of {:.3f} s to {:.3f} s since the machine's start\n",
+               static_cast<double>(recovery.first_ns) * 1e-9,
+               static_cast<double>(recovery.last_ns) * 1e-9);
+  }
   if (recovery.damaged > 0) {
     fmt::print("{} records or chunks failed their checks and are left out\n", recovery.damaged);
   }

@@ -57,6 +57,8 @@ struct Seen {
   std::vector<std::uint32_t> sequences;
   McapEnding ending = McapEnding::kOpen;
   std::uint64_t damaged = 0;
+  std::uint64_t first_ns = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t last_ns = 0;
 };
 
 [[nodiscard]] Seen read_all(std::span<const std::byte> bytes) {
@@ -70,6 +72,8 @@ struct Seen {
       // Never a value that was not written.
       REQUIRE(text == "message " + std::to_string(reader.message().sequence));
       seen.sequences.push_back(reader.message().sequence);
+      seen.first_ns = std::min(seen.first_ns, reader.message().log_time_ns);
+      seen.last_ns = std::max(seen.last_ns, reader.message().log_time_ns);
     }
   }
   seen.ending = reader.ending();
@@ -110,8 +114,22 @@ TEST_CASE("mcap recover: cut off at any byte, the file is closed with all that w
     CHECK(after.ending == McapEnding::kWhole);
     CHECK(after.sequences == before.sequences);
     CHECK(recovery.messages == before.sequences.size());
+    CHECK(recovery.first_ns == before.first_ns);
+    CHECK(recovery.last_ns == before.last_ns);
     CHECK((recovery.ending == McapEnding::kWhole) == (size == small.bytes.size()));
+    CHECK(recovery.reason.empty() == (size == small.bytes.size()));
   }
+}
+
+TEST_CASE("mcap recover: of a file that is closed and damaged in between the reason says so",
+          "[recording]") {
+  SmallFile small = small_file();
+  small.bytes[small.chunk_ends.front() - 1] ^= std::byte{0xff};
+  McapBytesSource source{small.bytes};
+  const McapRecovery recovery = look_through(source);
+  CHECK(recovery.ending == McapEnding::kWhole);
+  CHECK(recovery.damaged == 1);
+  CHECK(recovery.reason == "is closed, but damaged in between");
 }
 
 TEST_CASE("mcap reader: any byte that is changed gives no wrong message", "[recording]") {
