@@ -20,21 +20,26 @@ std::vector<Failsafe> failsafes() {
   const Duration trial = kArmedMemory + kBoxTrial_max;
   return {
       {"heading (`attitude`)", max_age::kAttitude,
-       "the helm is neutral, and no estimate is made; it goes on when the heading is back",
-       "helm `stale_attitude`, `no_way` `no_heading`, device `heading`"},
+       "the helm is neutral, 0.3 s later the guard takes the way off by thrust, and no estimate is "
+       "made; it goes on when the heading is back",
+       "helm `stale_attitude`, `no_way` `no_heading`, device `heading`; guard `silence`"},
       {"estimate (`vehicle_state`)", max_age::kVehicleState,
-       "the helm is neutral, nothing is planned", "helm `stale_state`, `no_way` `no_position`"},
+       "the helm is neutral, 0.3 s later the guard takes the way off, nothing is planned",
+       "helm `stale_state`, `no_way` `no_position`; guard `silence`"},
       {"believed fix, where fixes are the source (`estimator.fix_gap_max_s`)", kShippedFixGap,
        "no estimate is made, and so the helm is neutral; before that the model bridges the gap",
        "`position_trust`, device `position`"},
       {"sonar frame (`sonar_obstacles`, `tracks`)", max_age::kSonarFrame,
-       "nothing new is planned: what was planned is sailed until its own age limit, then held",
-       "plan reason and rung, device `sonar`"},
+       "it keeps its place, and makes way by what it remembers; it has been slower since a frame "
+       "was "
+       "missed. In profile `paper` nothing new is planned",
+       "plan reason `no_frame` and rung, `no_way` `no_sonar`, device `sonar`"},
       {"sonar frame, for the guard", max_age::kSonarFrame,
        "it is blind and cuts nothing; what it has stopped for stays known",
        "guard `blind`, log of lodesman-low"},
-      {"mission (`mission_status`)", max_age::kMissionStatus, "the helm is neutral",
-       "helm `stale_mission`"},
+      {"mission (`mission_status`)", max_age::kMissionStatus,
+       "the helm is neutral, 0.3 s later the guard takes the way off",
+       "helm `stale_mission`; guard `silence`"},
       {"high level (`helm_command`)", max_age::kHelmCommand,
        "thrust is neutral; 0.3 s later the guard takes the way off by thrust astern, until stopped",
        "thrust `stale_command`, then `guarded`; guard `silence`"},

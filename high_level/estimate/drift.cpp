@@ -7,14 +7,17 @@
 namespace lodesman {
 
 Eigen::Vector2d DriftEstimate::follow(Time now, const WorldPoint& position,
-                                      const Eigen::Vector2d& through_water_m_s) noexcept {
-  constexpr double kGap_s = 1.0;   // after a longer silence it begins anew from where it is
-  constexpr double kJump_m = 1.0;  // farther between two calls is a position mended, not water
+                                      const Eigen::Vector2d& through_water_m_s,
+                                      double yaw_rate_rad_s) noexcept {
+  constexpr double kGap_s = 1.0;       // after a longer silence it begins anew from where it is
+  constexpr double kTurns_m_s2 = 0.1;  // across; turning so hard, half as much is learnt
+  constexpr double kJump_m = 1.0;      // farther between two calls is a position mended, not water
   const double since_s = to_seconds(now - last_);
   const Eigen::Vector2d moved_m = position.xy_m - last_position_.xy_m;
   if (running_ && since_s > 0.0 && since_s < kGap_s && moved_m.norm() < kJump_m) {
     const Eigen::Vector2d over_ground_m_s = moved_m / since_s;
-    const double share = -std::expm1(-since_s / to_seconds(time_));
+    const double turns = through_water_m_s.norm() * yaw_rate_rad_s / kTurns_m_s2;
+    const double share = -std::expm1(-since_s / (to_seconds(time_) * (1.0 + turns * turns)));
     drift_m_s_ += share * (over_ground_m_s - through_water_m_s - drift_m_s_);
   }
   running_ = true;

@@ -10,14 +10,15 @@ namespace lodesman {
 
 class DriftEstimate {
  public:
-  // time: to come within 1/e of a new current.
+  // time: to come within 1/e of a new current, straight on.
   explicit DriftEstimate(Duration time) noexcept : time_{time} {}
 
   // The vehicle is at `position` now and has gone with that velocity through the water [world]
-  // since the last call. [m/s] [world]; 0 until the second call. What is no larger than kDoubt_m_s
-  // is none: speeds through the water are not known that well.
+  // since the last call, and turns at yaw_rate_rad_s. [m/s] [world]; 0 until the second call. What
+  // is no larger than kDoubt_m_s is none: speeds through the water are not known that well. A hull
+  // that turns slips, which looks like a current: the harder it turns the less is learnt.
   Eigen::Vector2d follow(Time now, const WorldPoint& position,
-                         const Eigen::Vector2d& through_water_m_s) noexcept;
+                         const Eigen::Vector2d& through_water_m_s, double yaw_rate_rad_s) noexcept;
 
   // Begins with a drift that was learnt before.
   void resume(const Eigen::Vector2d& drift_m_s) noexcept { drift_m_s_ = drift_m_s; }

@@ -170,6 +170,7 @@ Vec Pilot::end_of_ask(const Destination& destination, const Vec& start,
                       PathRequest& request) noexcept {
   const Vec& goal = destination.goal.xy_m;
   stay_ = destination.stay;
+  slowly_ = destination.slowly;
   goal_moved_ = false;
   goal_is_close_ = false;
   if (asked_for_best_) {
@@ -210,7 +211,7 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
   const PathReason reason = take_route(path);
   const OwnMotion own = when_it_takes_effect(now, state);
   plan.narrow = route_is_narrow_ || (goal_is_close_ && (route_.end() - own.p_W).norm() < kClose_m);
-  const double share = plan.narrow ? options_.narrow_speed_share : 1.0;
+  const double share = plan.narrow || slowly_ ? options_.narrow_speed_share : 1.0;
   const auto& choice = chooser_.choose(now, own, route_, tracks, share, stay_at_end_);
   plan.waypoint_count = 0;
   for (std::uint32_t i = 0; i < choice.way.count && plan.waypoint_count < kMaxWaypoints; ++i) {
@@ -368,12 +369,16 @@ void Pilot::explain(PathReason reason, const SonarPath& path,
   plan.cause = cause.least_track;
   plan.clearance_m = cause.least_clearance_m;
   plan.clearance_after_s = cause.least_after_s;
-  if (manoeuvre.for_s > 0.0) {
-    plan.rung = manoeuvre.speed_share <= 0.0           ? PlanRung::kStop
-                : std::abs(manoeuvre.offset_rad) > 0.0 ? PlanRung::kAside
-                                                       : PlanRung::kSlow;
+  const double full_share = plan.narrow || slowly_ ? options_.narrow_speed_share : 1.0;
+  const bool aside = manoeuvre.for_s > 0.0;
+  if (aside && manoeuvre.speed_share <= 0.0) {
+    plan.rung = PlanRung::kStop;
+  } else if (aside && std::abs(manoeuvre.offset_rad) > 0.0) {
+    plan.rung = PlanRung::kAside;
   } else if (holding_) {
     plan.rung = PlanRung::kHold;
+  } else if (manoeuvre.speed_share < full_share) {
+    plan.rung = PlanRung::kSlow;
   } else if (escaping_) {
     plan.rung = PlanRung::kEscape;
   } else if (found != PathReason::kFound && stay_at_end_) {
@@ -381,7 +386,7 @@ void Pilot::explain(PathReason reason, const SonarPath& path,
   } else if (goal_moved_) {
     plan.rung = PlanRung::kNearGoal;
   } else {
-    plan.rung = plan.narrow ? PlanRung::kSlow : PlanRung::kOnRoute;
+    plan.rung = plan.narrow || slowly_ ? PlanRung::kSlow : PlanRung::kOnRoute;
   }
 }
 

@@ -33,6 +33,7 @@ struct Destination {
   WorldPoint goal;
   bool stay = false;       // a place to wait at, not one to arrive at
   std::optional<Leg> leg;  // that ends there and whose line is to be kept
+  bool slowly = false;     // for the water is not known as it should be
 };
 
 class Pilot {
@@ -46,6 +47,8 @@ class Pilot {
   // After start(), of a mission that goes on: keeps to the sides that `last` was asked for by the
   // pilot that was here before.
   void keep_sides_of(const PathRequest& last) noexcept;
+  // [-] of the mission's speed, what the vessel does at most.
+  [[nodiscard]] double most_share() const noexcept { return chooser_.most_share(); }
   // Takes on what an operator changed.
   void tune(const Tunables& tunables) noexcept;
 
@@ -97,6 +100,7 @@ class Pilot {
   bool goal_is_close_ = false;  // to something: zones gave what it needs
   bool asked_for_best_ = false;
   bool stay_ = false;
+  bool slowly_ = false;
   std::optional<KeptLine> line_;  // that is kept to
   LineToKeep last_line_;          // on this leg
   int free_asks_ = 0;             // to come, as the line could not be gone back to

@@ -10,6 +10,11 @@ namespace {
 
 // A frame that comes so early is due: frames come with the jitter of the threads that bring them.
 constexpr Duration kEarly_max = std::chrono::milliseconds{5};
+// Without frames it plans anew so often.
+constexpr Duration kAgain = std::chrono::milliseconds{200};
+constexpr double kStops_s = 0.4;   // at the way that it has on, what it takes to stop
+constexpr double kWay_m_s = 0.25;  // more than that is taken off by thrust astern
+constexpr double kAstray_m = 5.0;  // farther than this it is not gone back blindly
 
 [[nodiscard]] VehiclePose pose_of(const VehicleState& state) noexcept {
   return {{{state.x_m, state.y_m}}, Heading::clockwise_from_y_rad(state.heading_rad)};
@@ -33,6 +38,8 @@ void Replanner::start(Time now) noexcept {
   asked_.reset();
   planned_frame_ = 0;
   silence_said_ = false;
+  sight_.start();
+  stops_at_.reset();
   plan_ = Plan{};
 }
 
@@ -47,11 +54,37 @@ bool Replanner::is_due(Time now, std::uint64_t frame) const noexcept {
   return due && !pending_ && frame != planned_frame_;
 }
 
+bool Replanner::is_due_again(Time now) const noexcept {
+  return !pending_ && (!asked_ || now - *asked_ >= kAgain);
+}
+
+Destination Replanner::in_sight(Sight sight, const VehicleState& state,
+                                const Destination& destination) noexcept {
+  Destination there = destination;
+  there.slowly = sight != Sight::kNew;
+  if (sight != Sight::kLost || destination.stay) {
+    stops_at_.reset();
+    return there;
+  }
+  const Eigen::Vector2d p{state.x_m, state.y_m};
+  if (!stops_at_ || (stops_at_->xy_m - p).norm() > kAstray_m) {
+    stops_at_ = WorldPoint{
+        p + kStops_s * velocity_over_ground(state.heading_rad,
+                                            {state.surge_m_s, state.sway_m_s, state.yaw_rate_rad_s},
+                                            {state.current_x_m_s, state.current_y_m_s})};
+  }
+  there.goal = *stops_at_;
+  there.stay = true;
+  there.leg.reset();
+  return there;
+}
+
 void Replanner::ask(const Pending& pending) noexcept {
   pending_ = pending;
   // Phase is kept against the plan's own clock, so that a late tick does not stretch the period.
   const Time now = pending.asked;
-  const bool in_step = asked_ && now - *asked_ < 2 * options_.replan_period;
+  const bool in_step =
+      pending.sight == Sight::kNew && asked_ && now - *asked_ < 2 * options_.replan_period;
   asked_ = in_step ? *asked_ + options_.replan_period : now;
   planned_frame_ = pending.frame;
 }
@@ -80,19 +113,23 @@ const PathRequest* Replanner::request(Time now, std::uint64_t frame, Time frame_
   request_->space = PathSpace::kSonarView;
   request_->goal_x_m = goal_V.xy_m.x();
   request_->goal_y_m = goal_V.xy_m.y();
-  ask({request_->id, frame, now, frame_captured, *pose, goal});
+  ask({request_->id, frame, now, frame_captured, *pose, goal, Sight::kNew});
   return request_.get();
 }
 
-const PathRequest* Replanner::request(Time now, const Tracks& tracks, const VehicleState& state,
+const PathRequest* Replanner::request(Time now, const Tracks& tracks, Time seen,
+                                      const VehicleState& state,
                                       const Destination& destination) noexcept {
-  if (!pilot_ || !is_due(now, tracks.frame)) {
+  const Sight sight = sight_.look(now, seen);
+  const bool due = sight == Sight::kNew ? is_due(now, tracks.frame) : is_due_again(now);
+  if (!pilot_ || !due) {
     return nullptr;
   }
+  const Destination there = in_sight(sight, state, destination);
   request_->id = next_id_++;
   request_->frame = tracks.frame;
-  pilot_->ask(now, tracks, state, destination, *request_);
-  ask({request_->id, tracks.frame, now, tracks.captured, pose_of(state), destination.goal});
+  pilot_->ask(now, tracks, state, there, *request_);
+  ask({request_->id, tracks.frame, now, tracks.captured, pose_of(state), there.goal, sight});
   return request_.get();
 }
 
@@ -123,9 +160,26 @@ const Plan* Replanner::answer(Time now, const SonarPath& path, const Tracks& tra
   const Pending pending = take_answer(now);
   describe(pending, path.reason);
   pilot_->decide(now, path, tracks, state, plan_);
+  if (pending.sight != Sight::kNew) {
+    plan_.lost_since = pending.captured;
+  }
+  if (pending.sight == Sight::kLost) {
+    plan_.reason = PathReason::kNoFrame;
+    take_way_off(state);
+  }
   plan_.path_id = plan_.id;
   plan_.path_captured = pending.captured;
   return &plan_;
+}
+
+// To where it stops by thrust, but where it makes way for something.
+void Replanner::take_way_off(const VehicleState& state) noexcept {
+  if (plan_.steer_by == SteerBy::kLine && state.surge_m_s > kWay_m_s) {
+    plan_.steer_by = SteerBy::kCourse;
+    plan_.course_rad = state.heading_rad;
+    plan_.speed_share = -pilot_->most_share();
+    plan_.rung = PlanRung::kStop;
+  }
 }
 
 Replanner::Pending Replanner::take_answer(Time now) noexcept {
@@ -149,6 +203,8 @@ const Plan* Replanner::silence(Time now, const Missing& missing) noexcept {
   plan_.reason = missing.what;
   plan_.lost_since = missing.since;
   plan_.rung = PlanRung::kNothing;
+  // A pilot's plan is steered by while holding too.
+  plan_.steer_by = pilot_ ? SteerBy::kLine : SteerBy::kWaypoints;
   return &plan_;
 }
 

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "high_level/guidance/pilot.h"
+#include "high_level/guidance/sight.h"
 #include "mid_level/base/frames.h"
 #include "mid_level/base/time.h"
 #include "mid_level/geometry/pose_history.h"
@@ -52,8 +53,9 @@ class Replanner {
                                            const WorldPoint& goal,
                                            const PoseHistory& poses) noexcept;
 
-  // The same in the world, for what is known at this frame.
-  [[nodiscard]] const PathRequest* request(Time now, const Tracks& tracks,
+  // The same in the world, for what is known at this frame, which came at `seen`. Where no other
+  // has come for too long, again for what is remembered: slower at first, then to where it stops.
+  [[nodiscard]] const PathRequest* request(Time now, const Tracks& tracks, Time seen,
                                            const VehicleState& state,
                                            const Destination& destination) noexcept;
   [[nodiscard]] const Plan* answer(Time now, const SonarPath& path, const Tracks& tracks,
@@ -74,10 +76,16 @@ class Replanner {
     Time captured{};
     VehiclePose pose;
     WorldPoint goal;
+    Sight sight = Sight::kNew;
   };
   [[nodiscard]] bool is_due(Time now, std::uint64_t frame) const noexcept;
+  [[nodiscard]] bool is_due_again(Time now) const noexcept;
+  // Where is made for by what is known.
+  [[nodiscard]] Destination in_sight(Sight sight, const VehicleState& state,
+                                     const Destination& destination) noexcept;
   void ask(const Pending& pending) noexcept;
   [[nodiscard]] Pending take_answer(Time now) noexcept;
+  void take_way_off(const VehicleState& state) noexcept;
   // Step 12.4: the previous waypoints stand, as long as they are young enough.
   void keep_previous(Time now) noexcept;
   void describe(const Pending& pending, PathReason reason) noexcept;
@@ -86,6 +94,8 @@ class Replanner {
   std::optional<Pilot> pilot_;
   std::unique_ptr<PathRequest> request_ = std::make_unique<PathRequest>();
   std::optional<Pending> pending_;
+  SightWatch sight_{options_.silence_limit - options_.replan_period};
+  std::optional<WorldPoint> stops_at_;  // without sight
   std::optional<Time> asked_;
   Time heard_{};  // when the last answer came, or the mission started
   std::uint64_t planned_frame_ = 0;

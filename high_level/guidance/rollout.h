@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A manoeuvre sailed in thought: the vehicle model under the steering that the controller sails by,
-// through the current, first on the manoeuvre's course and then along the route. Plain values; one
-// thread; no allocation.
+// through the current, first on the manoeuvre's course and then along the route, or to a stop.
+// Plain values; one thread; no allocation.
 #pragma once
 
 #include "high_level/estimate/vehicle_model.h"
@@ -18,6 +18,8 @@ struct VehicleResponse {
   double hull_half_length_m = 0.0;  // [m] two discs cover the hull: see clearance
   double hull_half_beam_m = 0.0;    // [m]
   double look_ahead_m = 0.0;        // [m] > 0 of the line-of-sight guidance
+  // [-] >= 1 of the cruise, ahead or astern: the most it may do to keep clear.
+  double most_share = 1.0;
 };
 
 struct OwnMotion {
@@ -32,9 +34,11 @@ struct OwnMotion {
 
 // First another course for a while, then back to the route.
 struct Manoeuvre {
-  double offset_rad = 0.0;   // [rad] off the route's course, clockwise positive
-  double for_s = 0.0;        // [s] so long
-  double speed_share = 1.0;  // [-] of speed_max, as long as it lasts; in [-0.5, 1] but in flight
+  double offset_rad = 0.0;  // [rad] off the route's course, clockwise positive
+  double for_s = 0.0;       // [s] so long
+  // [-] of the cruise, as long as it lasts; in [-0.5, 1] but in flight. Where for_s is 0, along the
+  // route.
+  double speed_share = 1.0;
   friend bool operator==(const Manoeuvre&, const Manoeuvre&) = default;
 };
 
@@ -49,6 +53,9 @@ class Rollout {
   Rollout(const VehicleResponse& response, const Route& route, const OwnMotion& own,
           const Manoeuvre& manoeuvre, double speed_share_max, bool stay_at_end) noexcept;
 
+  // From here on it brakes, and stays where it has stopped.
+  void stop() noexcept { phase_ = phase_ == Phase::kSailing ? Phase::kStopping : phase_; }
+
   // Goes on, unless it has arrived, by (0, kPartMax_s]; by more only where it goes straight on.
   void sail(double part_s) noexcept;
 
@@ -56,14 +63,19 @@ class Rollout {
   [[nodiscard]] const Eigen::Vector2d& p_W() const noexcept { return motion_.position.xy_m; }
   [[nodiscard]] RoutePlace place() const noexcept { return place_; }
   [[nodiscard]] double after_s() const noexcept { return after_s_; }
-  [[nodiscard]] bool is_aside() const noexcept { return after_s_ < manoeuvre_.for_s; }
+  [[nodiscard]] bool is_aside() const noexcept {
+    return phase_ == Phase::kSailing && after_s_ < manoeuvre_.for_s;
+  }
   [[nodiscard]] bool has_arrived() const noexcept { return arrived_; }
 
  private:
-  [[nodiscard]] Steering steering() const noexcept;
+  enum class Phase : std::uint8_t { kSailing, kStopping, kStopped };
 
-  const VehicleResponse& response_;
-  const Route& route_;
+  [[nodiscard]] Steering steering() const noexcept;
+  [[nodiscard]] Steering steering_to_a_stop() const noexcept;
+
+  const VehicleResponse* response_;
+  const Route* route_;
   Manoeuvre manoeuvre_;
   double speed_share_max_;
   bool stay_at_end_;
@@ -73,6 +85,8 @@ class Rollout {
   Eigen::Vector2d course_;  // of the manoeuvre
   double after_s_ = 0.0;
   bool arrived_ = false;
+  Phase phase_ = Phase::kSailing;
+  Eigen::Vector2d stopped_at_ = Eigen::Vector2d::Zero();  // [m] [world] once it has
 };
 
 }  // namespace lodesman

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "high_level/guidance/hazard.h"
 #include "mid_level/geometry/moving_obstacle.h"
 #include "mid_level/geometry/obstacle_distance.h"
 
@@ -67,8 +68,9 @@ void make_zones(const ZoneOptions& options, const VehicleModel& vehicle, const T
   const double sure_m = sure_zone_m(options, vehicle, speed_m_s);
   for (std::uint32_t i = 0; i < std::min<std::uint32_t>(tracks.count, kMaxObstacles); ++i) {
     const Track& track = tracks.tracks[i];
-    const Vec velocity =
-        track.surely_moves() ? Vec{track.velocity_x_m_s, track.velocity_y_m_s} : Vec{0.0, 0.0};
+    const Vec velocity = probability_of_motion(track) > 0.5
+                             ? Vec{track.velocity_x_m_s, track.velocity_y_m_s}
+                             : Vec{0.0, 0.0};
     if (velocity.norm() > options.slow_share * speed_m_s) {
       continue;
     }

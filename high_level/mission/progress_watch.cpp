@@ -21,7 +21,10 @@ double least_way_m(const ProgressWatchOptions& options, double speed_m_s) noexce
 void ProgressWatch::start(Time now) noexcept { begin_anew(now, {}); }
 
 NoWayCause ProgressWatch::update(Time now, const ProgressSample& sample) noexcept {
-  if (!sample.wanted) {
+  // The time that it stood by decision is none in which it did not get on.
+  const bool stood = stands_;
+  stands_ = sample.cause == NoWayCause::kNoSonar;
+  if (!sample.wanted || (stood && !stands_)) {
     begin_anew(now, sample);
     return NoWayCause::kNone;
   }

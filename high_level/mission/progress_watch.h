@@ -56,6 +56,7 @@ class ProgressWatch {
   std::optional<WorldPoint> began_at_;
   std::optional<WorldPoint> last_position_;
   Time last_{};
+  bool stands_ = false;  // for it does not see
 };
 
 }  // namespace lodesman

@@ -183,9 +183,10 @@ void EstimatorTask::step_reckoning(Time now, const Attitude& attitude, int surge
                                                                   : PositionTrust::kTracked;
   if (options_.source != PositionSource::kDeadReckoning &&
       options_.current_time > Duration::zero()) {
-    const Eigen::Vector2d current_m_s = drift_.follow(
-        now, position,
-        surge_m_s * Eigen::Vector2d{std::sin(heading.rad()), std::cos(heading.rad())});
+    const Eigen::Vector2d current_m_s =
+        drift_.follow(now, position,
+                      surge_m_s * Eigen::Vector2d{std::sin(heading.rad()), std::cos(heading.rad())},
+                      attitude.yaw_rate_rad_s);
     state.current_x_m_s = current_m_s.x();
     state.current_y_m_s = current_m_s.y();
   }

@@ -292,7 +292,7 @@ void PlannerTask::replan_in_view(Time now) noexcept {
 
 void PlannerTask::replan_in_world(Time now) noexcept {
   const auto* state = vehicle_state_.fresh(now, max_age::kVehicleState);
-  const auto* tracks = tracks_.fresh(now, max_age::kSonarFrame);
+  const auto* tracks = tracks_.latest();
   if (state == nullptr || tracks == nullptr) {
     return;
   }
@@ -300,8 +300,8 @@ void PlannerTask::replan_in_world(Time now) noexcept {
   if (const auto* path = sonar_path_.latest(); path != nullptr) {
     publish(replanner_.answer(now, path->value, water, state->value), now);
   }
-  const auto* request =
-      replanner_.request(now, water, state->value, {mission_.goal(), mission_.holding(), leg()});
+  const Destination there{mission_.goal(), mission_.holding(), leg()};
+  const auto* request = replanner_.request(now, water, tracks->stamp, state->value, there);
   if (request != nullptr) {
     requests_.publish(*request, now);
   }
@@ -375,17 +375,20 @@ ProgressSample PlannerTask::progress_sample(Time now) noexcept {
     sample.cause = NoWayCause::kDisarmed;
   } else if (!planned || plan->value.waypoint_count == 0) {
     sample.cause = NoWayCause::kNoPlan;
+  } else if (plan->value.reason == PathReason::kNoFrame) {
+    sample.cause = NoWayCause::kNoSonar;
   }
   return sample;
 }
 
-// To wait is a decision: it may be a long one, and its reason stands in the plan.
+// To wait is a decision: it may be a long one, and its reason stands in the plan. Without sonar it
+// is none.
 bool PlannerTask::wants_way(const Plan& plan, const ProgressSample& sample,
                             double to_waypoint_m) const noexcept {
   const bool waits = plan.rung == PlanRung::kStop || plan.rung == PlanRung::kHold ||
                      (plan.waypoint_count > 0 && plan.speed_share <= 0.0);
   const bool stays = plan.stay_at_end && sample.position && to_waypoint_m < kStay_m;
-  return !waits && !stays;
+  return (!waits && !stays) || plan.reason == PathReason::kNoFrame;
 }
 
 void PlannerTask::publish(const Plan* plan, Time now) noexcept {

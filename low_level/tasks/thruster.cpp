@@ -17,6 +17,11 @@ constexpr Duration kBatteryPeriod = std::chrono::seconds{1};
   return (share(thrust.left) + share(thrust.right)) / 2.0;
 }
 
+// Whether the helm steers, or is at rest by decision; else it does not know how to.
+[[nodiscard]] bool is_decision(HelmReason reason) noexcept {
+  return reason == HelmReason::kTracking || reason == HelmReason::kNotUnderWay;
+}
+
 }  // namespace
 
 void ThrusterTask::step(Time now) noexcept {
@@ -199,8 +204,9 @@ GuardView ThrusterTask::view_for(const ThrustApplied& wanted, Time now) noexcept
   GuardView view;
   view.may_turn = is_armed && (aborted_ == Time{} || aborted_ < arming.armed);
   view.is_overridden = by_hand && stick != nullptr && stick->value.overrides_guard;
+  const auto* helm = helm_.fresh(now, max_age::kHelmCommand);
   view.is_silent = !by_hand && helm_.newest_sequence() != 0 &&
-                   helm_.fresh(now, max_age::kHelmCommand) == nullptr;
+                   (helm == nullptr || !is_decision(helm->value.reason));
   return view;
 }
 

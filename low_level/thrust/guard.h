@@ -45,7 +45,7 @@ struct GuardOptions {
 struct GuardView {
   bool may_turn = false;       // the thrusters are armed, and no abort stands
   bool is_overridden = false;  // by the word of a stick
-  bool is_silent = false;      // nobody has steered for longer than a command lasts
+  bool is_silent = false;      // nobody steers: no command is heard, or none knows how to
 };
 
 class Guard {

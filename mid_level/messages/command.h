@@ -78,10 +78,12 @@ enum class NoWayCause : std::uint8_t {
   kNoPlan,      // there is nothing to follow
   kCurrent,     // it is carried elsewhere: the current is stronger than the boat
   kDisarmed,    // nobody lets the thrusters turn: disarmed, or stopped by emergency
+  kNoSonar,     // the sonar is silent: it stays where it is
 };
 [[nodiscard]] constexpr auto enumerators(NoWayCause) noexcept {
-  return enumerators_to<NoWayCause::kDisarmed>("none", "unknown", "thrusters", "no_heading",
-                                               "no_position", "no_plan", "current", "disarmed");
+  return enumerators_to<NoWayCause::kNoSonar>("none", "unknown", "thrusters", "no_heading",
+                                              "no_position", "no_plan", "current", "disarmed",
+                                              "no_sonar");
 }
 
 // Written by the planner task at every step; read by the controller, the world (its scenario's

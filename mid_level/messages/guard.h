@@ -28,7 +28,7 @@ enum class GuardState : std::uint8_t {
 enum class GuardReason : std::uint8_t {
   kNone,
   kObstacle,  // something lies in the way, no farther off than it takes to stop
-  kSilence,   // nobody has steered for too long, and there was way on the boat
+  kSilence,   // nobody steered for too long, or knew how to, and there was way on the boat
 };
 [[nodiscard]] constexpr auto enumerators(GuardReason) noexcept {
   return enumerators_to<GuardReason::kSilence>("none", "obstacle", "silence");

@@ -57,7 +57,8 @@ namespace {
   const std::string what = plan.reason == PathReason::kNoPosition  ? "the position"
                            : plan.reason == PathReason::kNoHeading ? "the heading"
                                                                    : "the sonar's view";
-  return what + " is lost, last known " + fixed(*plan.lost_for_s, 1) + " s ago: nothing to follow";
+  return what + " is lost, last known " + fixed(*plan.lost_for_s, 1) +
+         " s ago: " + (plan.rung == "nothing" ? "nothing to follow" : action_of(plan));
 }
 
 }  // namespace
@@ -84,6 +85,7 @@ std::string describe(NoWayCause cause, double for_s) {
       case NoWayCause::kNoHeading: return "the heading is lost";
       case NoWayCause::kNoPosition: return "the position is lost";
       case NoWayCause::kNoPlan: return "there is nothing to follow";
+      case NoWayCause::kNoSonar: return "the sonar is silent";
       case NoWayCause::kCurrent:
         return "it is carried elsewhere, so the current is stronger than the boat";
       case NoWayCause::kNone:

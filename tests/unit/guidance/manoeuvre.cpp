@@ -108,10 +108,10 @@ TEST_CASE("manoeuvre: a head-on mover is given way to starboard, and kept clear 
   const Tracks tracks = tracks_of({disc_track(3, 0, 16, 0.0, -0.5)});
   const auto chooses = chooser();
   const Choice choice = choose(*chooses, tracks);
-  CHECK(choice.of_route.collides);
+  CHECK(choice.of_route.touches);
   CHECK(choice.of_route.least_track == 3);
   CHECK(choice.manoeuvre.for_s > 0.0);
-  CHECK_FALSE(choice.foresight.collides);
+  CHECK_FALSE(choice.foresight.touches);
   CHECK(choice.changed);
   // The way leads aside and back to the route's end.
   CHECK(choice.way.count > 3);
@@ -127,7 +127,7 @@ TEST_CASE("manoeuvre: something that crosses is passed astern", "[high_level][gu
   for (const double side : {1.0, -1.0}) {
     const Tracks tracks = tracks_of({disc_track(3, side * 6.4, 8, -side * 0.8, 0.0)});
     const auto chooses = chooser();
-    CHECK(choose(*chooses, tracks).of_route.collides);
+    CHECK(choose(*chooses, tracks).of_route.touches);
     const Voyage voyage = sail(tracks, 24.0);
     CHECK_FALSE(voyage.ahead_of_first);
     CHECK(voyage.least_m > 0.8);
@@ -140,8 +140,9 @@ TEST_CASE("manoeuvre: it stops before a way that is blocked all round", "[high_l
   const Tracks tracks = tracks_of({wall_track(6, {{-2, -4}, {-2, 7}, {2, 7}, {2, -4}})});
   const auto chooses = chooser();
   const Choice choice = choose(*chooses, tracks, northward_at(2.0));
-  CHECK(choice.of_route.collides);
-  CHECK(choice.manoeuvre.speed_share <= 0.0);
+  CHECK(choice.of_route.touches);
+  CHECK_FALSE(choice.foresight.touches);
+  CHECK((choice.foresight.stops || choice.manoeuvre.speed_share <= 0.0));
   const Voyage voyage = sail(tracks, 40.0);
   CHECK(voyage.least_m > 1.0);
 }
@@ -158,12 +159,12 @@ TEST_CASE("manoeuvre: where nothing slower keeps clear it flees, and only there"
         chooses->choose(at_s(0), northward_at(0.0, 0.2), route_north(), tracks, 1.0, false));
   };
   const Tracks fast = tracks_of({disc_track(1, 5.0, 0.5, -1.0, 0.0)});
-  CHECK(choice_with(0.0, fast)->foresight.collides);
+  CHECK(choice_with(0.0, fast)->foresight.touches);
   const auto fled = choice_with(1.0, fast);
-  CHECK_FALSE(fled->foresight.collides);
+  CHECK_FALSE(fled->foresight.touches);
   CHECK(std::abs(fled->manoeuvre.speed_share) > 1.0);
   const auto calm = choice_with(1.0, tracks_of({disc_track(1, 12.0, 3.0, -0.5, 0.0)}));
-  CHECK_FALSE(calm->foresight.collides);
+  CHECK_FALSE(calm->foresight.touches);
   CHECK(std::abs(calm->manoeuvre.speed_share) <= 1.0);
 }
 
@@ -219,7 +220,7 @@ TEST_CASE("manoeuvre: a place to wait at is waited at, a goal is not", "[high_le
       passes->choose(at_s(0), northward_at(0), route, tracks, 1.0, false).of_route.delay_s;
   const Choice& waiting = waits->choose(at_s(0), northward_at(0), route, tracks, 1.0, true);
   CHECK(waiting.of_route.delay_s > to_goal);
-  CHECK(waiting.of_route.collides);
+  CHECK(waiting.of_route.touches);
 }
 
 }  // namespace lodesman::testing

@@ -195,12 +195,12 @@ TEST_CASE("replanner: in the world it asks once a frame, from tracks, and follow
   tracks.captured = s(0.9);
   VehicleState state;
   state.valid_at = s(1.0);
-  const auto request = replanner.request(s(1.0), tracks, state, {{{0.0, 20.0}}, false, {}});
+  const auto request = replanner.request(s(1.0), tracks, s(1.0), state, {{{0.0, 20.0}}, false, {}});
   REQUIRE(request != nullptr);
   CHECK(request->id == 8);
   CHECK(request->frame == 5);
   CHECK(request->space == PathSpace::kWorld);
-  CHECK(replanner.request(s(1.05), tracks, state, {{{0.0, 20.0}}, false, {}}) == nullptr);
+  CHECK(replanner.request(s(1.05), tracks, s(1.0), state, {{{0.0, 20.0}}, false, {}}) == nullptr);
   auto path = refused(*request, PathReason::kFound);
   path->points[0] = {0.0, 0.0};
   path->points[1] = {0.0, 20.0};
@@ -213,13 +213,71 @@ TEST_CASE("replanner: in the world it asks once a frame, from tracks, and follow
   CHECK(plan->steer_by == SteerBy::kLine);
   CHECK(plan->waypoint_count == 2);
   CHECK(replanner.answer(s(1.15), *path, tracks, state) == nullptr);
-  CHECK(replanner.request(s(1.2), tracks, state, {{{0.0, 20.0}}, false, {}}) ==
+  CHECK(replanner.request(s(1.2), tracks, s(1.0), state, {{{0.0, 20.0}}, false, {}}) ==
         nullptr);  // the same frame
   tracks.frame = 6;
-  CHECK(replanner.request(s(1.2), tracks, state, {{{0.0, 20.0}}, false, {}}) != nullptr);
+  CHECK(replanner.request(s(1.2), tracks, s(1.2), state, {{{0.0, 20.0}}, false, {}}) != nullptr);
+}
+
+TEST_CASE("replanner: without frames it is slower at once, then stays where it stops, and says so",
+          "[high_level][guidance]") {
+  ReplannerOptions options = paper();
+  options.replan_period = {};
+  options.silence_limit = std::chrono::seconds{2};
+  options.pilot = PilotOptions{};
+  options.pilot->response = testing::default_response();
+  options.pilot->manoeuvres = testing::default_manoeuvres();
+  options.pilot->narrow_speed_share = 0.5;
+  Replanner replanner{options};
+  replanner.start(s(1.0));
+  Tracks tracks;
+  tracks.captured = s(0.9);
+  VehicleState state;
+  state.surge_m_s = 1.0;
+  const Destination goal{{{0.0, 20.0}}, false, {}};
+  // At `now`, of a frame that came at 1.0 s.
+  const auto plan_at = [&](double now_s) {
+    tracks.frame = 5;
+    state.valid_at = s(now_s);
+    state.y_m = now_s - 1.0;
+    const auto* request = replanner.request(s(now_s), tracks, s(1.0), state, goal);
+    REQUIRE(request != nullptr);
+    auto path = refused(*request, PathReason::kFound);
+    path->points[0] = {request->start_x_m, request->start_y_m};
+    path->points[1] = {request->goal_x_m, request->goal_y_m};
+    path->point_count = 2;
+    return *replanner.answer(s(now_s + 0.01), *path, tracks, state);
+  };
+  CHECK(plan_at(1.0).rung == PlanRung::kOnRoute);
+  const Plan late = plan_at(1.6);
+  CHECK(late.rung == PlanRung::kSlow);
+  CHECK(late.speed_share == Approx(0.5));
+  CHECK(late.reason == PathReason::kFound);
+  CHECK(late.lost_since == s(0.9));
+  CHECK(replanner.request(s(1.7), tracks, s(1.0), state, goal) == nullptr);
+  const Plan lost = plan_at(3.1);
+  CHECK(lost.rung == PlanRung::kStop);  // by thrust astern
+  CHECK(lost.steer_by == SteerBy::kCourse);
+  CHECK(lost.speed_share <= -1.0);
+  CHECK(lost.lost_since == s(0.9));
+  CHECK(lost.goal_y_m == Approx(2.5));  // 2.1 m of way, and what it takes to stop
+  CHECK(lost.reason == PathReason::kNoFrame);
+  state.surge_m_s = 0.0;
+  const Plan kept = plan_at(4.0);
+  CHECK(kept.goal_y_m == Approx(2.5));
+  CHECK(kept.stay_at_end);
+  CHECK(kept.steer_by == SteerBy::kLine);
+  // Carried off, or driven by hand: it does not go back there without seeing.
+  CHECK(plan_at(9.5).goal_y_m == Approx(8.5));
+  // Seen again, it goes on.
+  tracks.frame = 6;
+  const auto* again = replanner.request(s(10.0), tracks, s(9.95), state, goal);
+  REQUIRE(again != nullptr);
+  CHECK(again->goal_y_m == Approx(20.0));
 }
 
 TEST_CASE("replanner: without a pilot it never asks in the world", "[high_level][guidance]") {
   Replanner replanner{paper()};
-  CHECK(replanner.request(s(1.0), Tracks{}, VehicleState{}, {{{0.0, 20.0}}, false, {}}) == nullptr);
+  CHECK(replanner.request(s(1.0), Tracks{}, s(1.0), VehicleState{}, {{{0.0, 20.0}}, false, {}}) ==
+        nullptr);
 }

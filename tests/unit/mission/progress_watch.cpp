@@ -70,6 +70,19 @@ TEST_CASE("progress watch: a cause that is known is given", "[high_level][missio
   CHECK(boat.cause == NoWayCause::kNoPosition);
 }
 
+TEST_CASE("progress watch: once the sonar is heard again the patience begins anew",
+          "[high_level][mission]") {
+  Boat boat;
+  boat.sample.cause = NoWayCause::kNoSonar;
+  boat.go(seconds{16}, 0.05, 0.0);
+  CHECK(boat.cause == NoWayCause::kNoSonar);
+  boat.sample.cause = NoWayCause::kUnknown;
+  boat.go(seconds{14}, 0.0, 0.0);
+  CHECK(boat.cause == NoWayCause::kNone);
+  boat.go(seconds{2}, 0.0, 0.0);
+  CHECK(boat.cause == NoWayCause::kUnknown);
+}
+
 TEST_CASE("progress watch: a boat that is carried astern or aside has the current for a cause",
           "[high_level][mission]") {
   for (const auto& [east_m_s, north_m_s] : {std::pair{0.0, -0.3}, std::pair{0.5, 0.0}}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The guard inside the thruster task: what outranks it, what it outranks, and that it needs nobody.
+#include <algorithm>
 #include <array>
 
 #include "low_level/tasks/thruster.h"
@@ -159,6 +160,32 @@ TEST_CASE("thruster task: after an abort or a stop the guard turns nothing", "[l
     CHECK(thrusters.guard.latest()->value.state == GuardState::kIdle);
     CHECK(thrusters.guard.latest()->value.trips == 0);
   }
+}
+
+TEST_CASE("thruster task: of a helm that does not know how to steer the way is taken off",
+          "[low_level][tasks]") {
+  const auto brakes = [](HelmReason reason) {
+    GuardedThrusters thrusters;
+    thrusters.sail(57, seconds{10});
+    int least = 0;
+    for (int i = 0; i < 80; ++i) {
+      HelmCommand helm;
+      helm.reason = reason;
+      thrusters.helm.publish(helm, thrusters.now);
+      const int surge_ref = thrusters.step().surge_ref;
+      CHECK((i < 6 ? surge_ref == 0 : surge_ref <= 0));
+      least = std::min(least, surge_ref);
+    }
+    CHECK(thrusters.applied.latest()->value.surge_ref == 0);  // and no more
+    return least == -100;
+  };
+  CHECK(brakes(HelmReason::kStaleAttitude));
+  CHECK(brakes(HelmReason::kStaleState));
+  CHECK(brakes(HelmReason::kNoWaypoints));
+  CHECK(brakes(HelmReason::kStaleMission));
+  CHECK(brakes(HelmReason::kNotSane));
+  CHECK_FALSE(brakes(HelmReason::kNotUnderWay));
+  CHECK_FALSE(brakes(HelmReason::kTracking));
 }
 
 TEST_CASE("thruster task: the guard is above the stick, but for a word", "[low_level][tasks]") {
