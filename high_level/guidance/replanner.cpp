@@ -2,6 +2,7 @@
 #include "high_level/guidance/replanner.h"
 
 #include <chrono>
+#include <limits>
 
 #include "high_level/guidance/waypoints.h"
 
@@ -203,8 +204,11 @@ const Plan* Replanner::silence(Time now, const Missing& missing) noexcept {
   plan_.reason = missing.what;
   plan_.lost_since = missing.since;
   plan_.rung = PlanRung::kNothing;
-  // A pilot's plan is steered by while holding too.
-  plan_.steer_by = pilot_ ? SteerBy::kLine : SteerBy::kWaypoints;
+  if (pilot_) {
+    // A pilot's plan is steered by while holding too.
+    plan_.steer_by = SteerBy::kLine;
+    plan_.clearance_m = std::numeric_limits<double>::infinity();
+  }
   return &plan_;
 }
 
