@@ -67,7 +67,8 @@ struct Voyage {
     const double core_m = outlook.options->core_m;
     const double off_m = clearance_m(hazard, hazard.age_s, voyage.sailed.motion(), hull, core_m);
     voyage.least_m[i] = std::min(core_m, off_m);
-    voyage.touch_m[i] = std::min(kTouch_m, off_m - kDeeper_m);
+    const double touch_m = hazard.velocity_m_s.norm() > kRunsDown_m_s ? kTouch_m : 0.0;
+    voyage.touch_m[i] = std::min(touch_m, off_m - kDeeper_m);
   }
   return voyage;
 }
