@@ -31,8 +31,7 @@ std::vector<Failsafe> failsafes() {
        "`position_trust`, device `position`"},
       {"sonar frame (`sonar_obstacles`, `tracks`)", max_age::kSonarFrame,
        "it keeps its place, and makes way by what it remembers; it has been slower since a frame "
-       "was "
-       "missed. In profile `paper` nothing new is planned",
+       "was missed. In profile `paper` nothing new is planned",
        "plan reason `no_frame` and rung, `no_way` `no_sonar`, device `sonar`"},
       {"sonar frame, for the guard", max_age::kSonarFrame,
        "it is blind and cuts nothing; what it has stopped for stays known",

@@ -65,6 +65,25 @@ void sail(const std::vector<HardCase>& cases) {
   }
 }
 
+// Straight on for 24 m at 0.42 m/s; `more` goes on with the mission's keys.
+[[nodiscard]] JudgedRun run_of_24_m(int time_limit_s, const std::string& more) {
+  const Scratch scratch{"hard-cases"};
+  const auto scenario = scratch.file("24-m.toml", R"(
+name = "24-m"
+seed = 1
+time_limit_s = )" + std::to_string(time_limit_s) + R"(.0
+[vehicle]
+speed_m_s = 0.42
+radius_m = 0.5
+[mission]
+start_m = [0.0, 0.0]
+start_heading_deg = 0.0
+goal_m = [0.0, 24.0]
+goal_radius_m = 0.5
+)" + more);
+  return judged_run(scenario.string());
+}
+
 }  // namespace
 
 TEST_CASE("hard cases: goals that are far, close to something or on a rock", "[system]") {
@@ -83,29 +102,16 @@ TEST_CASE("hard cases: goals that are far, close to something or on a rock", "[s
 TEST_CASE(
     "hard cases: a waypoint on a rock is waited for as long as the mission says, and left out",
     "[system]") {
-  const Scratch scratch{"hard-cases"};
-  const auto scenario = scratch.file("skip.toml", R"(
-name = "skip"
-seed = 1
-time_limit_s = 300.0
-[mission]
-start_m = [0.0, 0.0]
-start_heading_deg = 0.0
+  const JudgedRun run = run_of_24_m(300, R"(
 waypoints_m = [[0.0, 12.0]]
-goal_m = [0.0, 24.0]
-goal_radius_m = 0.5
 blocked = "skip"
 blocked_patience_s = 20.0
-[vehicle]
-speed_m_s = 0.42
-radius_m = 0.5
 [[obstacle]]
 shape = "circle"
 centre_m = [0.0, 12.0]
 radius_m = 1.0
 protection_m = 2.5
 )");
-  const JudgedRun run = judged_run(scenario.string());
   INFO(run.story);
   CHECK(is_right({"", Right::kGoal}, run.result));
   CHECK(is_right({"", Right::kSays, true, "makes for the next waypoint"}, run.result));
@@ -114,26 +120,13 @@ protection_m = 2.5
 
 TEST_CASE("hard cases: a sonar that is silent is waited for and said, and it sails on with it",
           "[system]") {
-  const Scratch scratch{"hard-cases"};
-  const auto scenario = scratch.file("silent.toml", R"(
-name = "silent"
-seed = 1
-time_limit_s = 120.0
-[mission]
-start_m = [0.0, 0.0]
-start_heading_deg = 0.0
-goal_m = [0.0, 24.0]
-goal_radius_m = 0.5
-[vehicle]
-speed_m_s = 0.42
-radius_m = 0.5
+  const JudgedRun run = run_of_24_m(120, R"(
 [[fault]]
 device = "sonar"
 kind = "stall"
 at_s = 20.0
 duration_s = 30.0
 )");
-  const JudgedRun run = judged_run(scenario.string());
   INFO(run.story);
   CHECK(is_right({"", Right::kGoal}, run.result));
   CHECK(is_right({"", Right::kSays, true, "the sonar is silent"}, run.result));

@@ -78,6 +78,8 @@ TEST_CASE("foresight: what would touch on its way back is foreseen to a stop",
   CHECK(late.touches);
   // The farther it gets before it stops, the better.
   CHECK(is_better(foresee(wall->outlook, {0.0, 4.0, 1.0}), stopped));
+  // Also where the way back is given up for what it costs before it touches.
+  CHECK(is_better(foresee(wall->outlook, {0.0, 4.0, 1.0}, &stopped), stopped));
 }
 
 TEST_CASE("foresight: slower and later is the lesser harm", "[high_level][guidance]") {

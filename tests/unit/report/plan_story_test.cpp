@@ -38,6 +38,14 @@ TEST_CASE("plan_story: each rung has its words", "[report]") {
   CHECK(cli::describe(blind) == "3.0 s: nothing to follow (no_frame) (plan 0.15 s old)");
   blind.rung = "previous";
   CHECK(cli::describe(blind) == "3.0 s: along the previous waypoints (no_frame) (plan 0.15 s old)");
+  blind.lost_for_s = 2.5;
+  blind.rung = "hold";
+  CHECK(cli::describe(blind) ==
+        "3.0 s: the sonar's view is lost, last known 2.5 s ago: keeps its place and waits "
+        "(no_frame)");
+  blind.rung = "nothing";
+  CHECK(cli::describe(blind) ==
+        "3.0 s: the sonar's view is lost, last known 2.5 s ago: nothing to follow");
 }
 
 TEST_CASE("plan_story: course, speed and the obstacle it is about are named", "[report]") {
