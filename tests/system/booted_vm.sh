@@ -112,6 +112,7 @@ configure() {
     boat_toml $sonar_port $host "/dev/lodesman/ahrs?baud=38400" "${by_id}_POSITION-if00-port0" \
       "${by_id}_THRUSTERS-if00-port0"
     printf '\n[command_socket]\naddress = "0.0.0.0"\ntoken_file = "/etc/lodesman/boat.token"\n'
+    printf '\n[recorder]\nfree_floor_mib = 64\n'  # of a disk with hardly more than the system
   } | inside 'cat >/etc/lodesman/boat.toml'
   inside 'sed "s/^ENV{ID_VENDOR_ID}==\"0403\", /&ENV{ID_SERIAL_SHORT}==\"AHRS\", /" \
     /usr/lib/udev/rules.d/60-lodesman.rules >/etc/udev/rules.d/60-lodesman.rules'
@@ -240,6 +241,7 @@ judge_recording() {
     printf "%d", cut - 1000 * substr($0, RSTART + 9, RLENGTH - 9) }' <<<"$said")
   if [ -z "$lost_ms" ] || [ "$lost_ms" -ge 1000 ]; then fail "the recording ends $lost_ms ms before the cut: $said"; fi
   lost_of_recordings+=("$lost_ms")
+  inside rm "$1" "${1%.part}"  # the next one judged is not this one again
 }
 
 # Its word is on the disk a moment after it is confirmed.
