@@ -24,6 +24,8 @@ vm_packages="e2fsprogs iproute2 mmdebstrap openssh-client qemu-system-x86 qemu-u
 recording_packages="nodejs npm"
 # For lodesman rt-test (its load, and cyclictest beside it) and for what is measured under load.
 load_packages="stress-ng rt-tests"
+# For tests/measure/perception.sh: what the judge of the shared real frames is written with.
+perception_packages="python3-numpy python3-opencv"
 
 say() { echo "lodesman: $*" >&2; }
 

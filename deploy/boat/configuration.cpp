@@ -95,8 +95,10 @@ void overlay(const std::vector<std::string>& sets, TomlDocument& configuration) 
 [[nodiscard]] SimulationSettings read_simulation(const TomlTable& table) {
   return {table.text("scenario", 4096, 0),
           static_cast<SimulatedVessel>(table.choice("vessel", {"thrust", "estimate", "bench"})),
-          table.text("hull", 4096), table.duration("lockstep_jitter_s", Range::between(0.0, 0.1)),
-          table.duration("sonar_view_period_s", Range::between(0.05, 60.0))};
+          table.text("hull", 4096),
+          table.duration("lockstep_jitter_s", Range::between(0.0, 0.1)),
+          table.duration("sonar_view_period_s", Range::between(0.05, 60.0)),
+          static_cast<SimulatedScene>(table.choice("scene", {"scenario", "obstacles", "beams"}))};
 }
 
 [[nodiscard]] std::optional<GeoPoint> read_origin(const TomlTable& table) {

@@ -48,12 +48,20 @@ enum class SimulatedVessel : std::uint8_t {
   kBench,     // it is another program's, behind devices that are real to this one
 };
 
+// What the tracks of a simulated boat are made of.
+enum class SimulatedScene : std::uint8_t {
+  kScenario,   // as the scenario says
+  kObstacles,  // the scenario's own obstacles
+  kBeams,      // echoes
+};
+
 struct SimulationSettings {
   std::string scenario;  // a file, or the name of a shipped one; empty: no world
   SimulatedVessel vessel = SimulatedVessel::kThrust;
   std::string hull;  // the name of a shipped one, or a file
   Duration lockstep_jitter{};
   Duration sonar_view_period{};
+  SimulatedScene scene = SimulatedScene::kScenario;
 };
 
 struct BoatConfig {

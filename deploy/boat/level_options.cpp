@@ -15,11 +15,32 @@ constexpr double kLongestRamp_s = 10.0;
 
 }  // namespace
 
+namespace {
+
+[[nodiscard]] ContrastOptions read_contrast_options(const TomlTable& table) {
+  const auto count = [&table](std::string_view key, std::int64_t max) {
+    return static_cast<std::uint32_t>(table.integer(key, 1, max));
+  };
+  return {
+      .most_excess = table.number("contrast_most_excess", Range::between(kLeastExcess, 100.0)),
+      .sigmas = table.number("contrast_sigmas", Range::above(0.0, 100.0)),
+      .seed = table.number("contrast_seed", Range::between(1.0, 100.0)),
+      .side_lobe = table.number("contrast_side_lobe", Range::between(0.0, 0.99)),
+      .ring_sector_rad = to_rad(table.number("contrast_ring_sector_deg", Range::above(0.0, 180.0))),
+      .min_energy = table.number("contrast_min_energy", Range::above(0.0, 1e6)),
+      .join_beams = count("contrast_join_beams", 16),
+      .join_bins = count("contrast_join_bins", 64),
+  };
+}
+
+}  // namespace
+
 SegmentationOptions read_segmentation_options(const TomlTable& table) {
   const auto count = [&table](std::string_view key, std::int64_t min, std::int64_t max) {
     return static_cast<std::uint32_t>(table.integer(key, min, max));
   };
   return {
+      .method = static_cast<DetectionMethod>(table.choice("method", {"contrast", "threshold"})),
       .threshold = table.number("threshold", Range::above(0.0, 255.0)),
       .min_range_m = table.number("min_range_m", Range::between(0.0, 300.0)),
       .min_blob_bins = count("min_blob_bins", 1, kMaxBeams * kMaxBins),
@@ -31,6 +52,7 @@ SegmentationOptions read_segmentation_options(const TomlTable& table) {
       .protection_margin_m = table.number("protection_margin_m", Range::between(0.0, 100.0)),
       .stripe_fraction = table.number("stripe_fraction", Range::above(0.0, 1.0)),
       .stripe_max_beams = count("stripe_max_beams", 0, kMaxBeams),
+      .contrast = read_contrast_options(table),
       .profile = {.min_points = count("profile_min_points", 1, kMaxBeams),
                   .least_incidence_rad = to_rad(
                       table.number("profile_least_incidence_deg", Range::between(1.0, 89.0))),

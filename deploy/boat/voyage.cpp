@@ -35,7 +35,9 @@ Voyage voyage_of(const BoatConfig& config, const Scenario* scenario) {
   voyage.seed = scenario->seed;
   voyage.mission = scenario->mission.definition;
   voyage.sonar_sector_rad = scenario->sonar.sector_rad;
-  if (scenario->sonar.scene == SonarScene::kObstacles) {
+  const SimulatedScene scene = config.simulation.scene;
+  if (scene == SimulatedScene::kObstacles ||
+      (scene == SimulatedScene::kScenario && scenario->sonar.scene == SonarScene::kObstacles)) {
     voyage.known_scene = scenario->obstacles;
   }
   return voyage;
@@ -55,6 +57,10 @@ HighLevelOptions high_level_options(const BoatConfig& config, const Voyage& voya
   options.estimator.source = voyage.position_source;
   options.estimator.start = voyage.start;
   options.estimator.origin = voyage.origin;
+  // One's own echoes lie where they are from the boat, wherever it is itself.
+  if (auto& pilot = options.planner.replanner.pilot; pilot && !voyage.known_scene) {
+    pilot->zones.own_doubt_share = 0.0;
+  }
   return options;
 }
 

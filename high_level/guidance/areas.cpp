@@ -21,7 +21,9 @@ namespace {
 
 }  // namespace
 
-void add_areas(std::span<const MissionArea> areas, Time now, Tracks& water) noexcept {
+void add_areas(std::span<const MissionArea> areas, Time now, const VehicleState& own,
+               Tracks& water) noexcept {
+  const double doubt_m2 = std::max(own.position_xx_m2, own.position_yy_m2);
   const auto room = static_cast<std::uint32_t>(kMaxObstacles - std::min(areas.size(), kMaxAreas));
   if (water.count > room) {
     water.dropped += water.count - room;
@@ -34,6 +36,7 @@ void add_areas(std::span<const MissionArea> areas, Time now, Tracks& water) noex
     track.last_seen = now;
     track.shape = wall_of(area);
     track.shape.id = track.id;
+    track.place_xx_m2 = track.place_yy_m2 = doubt_m2;
     water.tracks[water.count++] = track;
   }
 }

@@ -296,7 +296,7 @@ void PlannerTask::replan_in_world(Time now) noexcept {
   if (state == nullptr || tracks == nullptr) {
     return;
   }
-  const Tracks& water = with_areas(tracks->value, now);
+  const Tracks& water = with_areas(tracks->value, state->value, now);
   if (const auto* path = sonar_path_.latest(); path != nullptr) {
     publish(replanner_.answer(now, path->value, water, state->value), now);
   }
@@ -313,13 +313,13 @@ std::optional<Leg> PlannerTask::leg() const noexcept {
                                            : std::nullopt;
 }
 
-const Tracks& PlannerTask::with_areas(const Tracks& tracks, Time now) noexcept {
+const Tracks& PlannerTask::with_areas(const Tracks& t, const VehicleState& own, Time now) noexcept {
   const MissionDefinition& mission = mission_.definition();
   if (mission.area_count == 0) {
-    return tracks;
+    return t;
   }
-  *water_ = tracks;
-  add_areas(areas_of(mission), now, *water_);
+  *water_ = t;
+  add_areas(areas_of(mission), now, own, *water_);
   return *water_;
 }
 

@@ -48,7 +48,8 @@ class PlannerTask final : public Task {
   // Whose line is kept to.
   [[nodiscard]] std::optional<Leg> leg() const noexcept;
   // What is known of the water: the tracks, and the mission's areas as walls.
-  [[nodiscard]] const Tracks& with_areas(const Tracks& tracks, Time now) noexcept;
+  [[nodiscard]] const Tracks& with_areas(const Tracks& tracks, const VehicleState& own,
+                                         Time now) noexcept;
   void replan(Time now) noexcept;
   void replan_in_view(Time now) noexcept;
   void replan_in_world(Time now) noexcept;

@@ -8,37 +8,10 @@
 #include <span>
 
 #include "low_level/sonar/blob.h"
+#include "low_level/sonar/segmentation_options.h"
 #include "mid_level/messages/sonar.h"
 
 namespace lodesman {
-
-inline constexpr std::uint32_t kMaxJoin = 8;
-
-// Of a profile alone.
-struct ProfileOptions {
-  std::uint32_t min_points;    // [-] >= 1; of fewer returns side by side none is an obstacle
-  double least_incidence_rad;  // [rad] (0, pi / 2) at which a surface is still seen as one
-  double range_noise_m;        // [m] > 0 standard deviation of a return
-};
-
-// Every value comes from the configuration; the ranges are checked there.
-struct SegmentationOptions {
-  double threshold;             // [-] (0, 255] smoothed echoes from here on are bright
-  double min_range_m;           // [m] >= 0; the head's own ring-down lies nearer
-  std::uint32_t min_blob_bins;  // [-] >= 1; smaller blobs are short outliers
-  // Bright bins this far apart belong to one blob: 1 and 1 are the eight neighbours.
-  std::uint32_t join_beams;      // [-] [1, kMaxJoin]
-  std::uint32_t join_bins;       // [-] [1, kMaxJoin]
-  double max_obstacle_length_m;  // [m] > 0; a longer ellipse is split across its length
-  double min_fill;               // [-] [0, 1] an ellipse emptier than this is split from half that
-  double enclosed_fraction;      // [-] [0.5, 0.99] of a blob's area that its ellipse holds
-  double protection_margin_m;    // [m] >= 0; protection semi-axes less the obstacle's
-  // Interference: at most stripe_max_beams adjacent beams of which more than stripe_fraction of
-  // the bins are bright.
-  double stripe_fraction;          // [-] (0, 1]; 1: none is interference
-  std::uint32_t stripe_max_beams;  // [-] [0, kMaxBeams]
-  ProfileOptions profile;
-};
 
 // How bright the cells of a blob are.
 struct BlobStrength {

@@ -118,4 +118,18 @@ void see_known_obstacles(std::span<const MovingObstacle> world, const KnownView&
   out.count = static_cast<std::uint32_t>(count);
 }
 
+Obstacle to_world(const VehiclePose& pose, const Obstacle& in_vehicle) noexcept {
+  Obstacle placed = in_vehicle;
+  const WorldPoint centre = pose.to_world({{in_vehicle.centre_x_m, in_vehicle.centre_y_m}});
+  placed.centre_x_m = centre.xy_m.x();
+  placed.centre_y_m = centre.xy_m.y();
+  placed.angle_rad = pose.angle_to_world_rad(in_vehicle.angle_rad);
+  placed.vertex_count = std::min<std::uint32_t>(in_vehicle.vertex_count, kMaxVertices);
+  for (std::uint32_t i = 0; i < placed.vertex_count; ++i) {
+    const WorldPoint p = pose.to_world({{in_vehicle.vertices[i].x_m, in_vehicle.vertices[i].y_m}});
+    placed.vertices[i] = {p.xy_m.x(), p.xy_m.y()};
+  }
+  return placed;
+}
+
 }  // namespace lodesman

@@ -30,5 +30,7 @@ void see_known_obstacles(std::span<const MovingObstacle> world, const KnownView&
 
 // The same obstacle, seen from the vehicle.
 [[nodiscard]] Obstacle to_vehicle(const VehiclePose& pose, const Obstacle& in_world) noexcept;
+// And back.
+[[nodiscard]] Obstacle to_world(const VehiclePose& pose, const Obstacle& in_vehicle) noexcept;
 
 }  // namespace lodesman

@@ -97,6 +97,9 @@ GreyImage decode_pgm(const Bytes& bytes, const std::filesystem::path& file) {
   return image;
 }
 
+// [px] of arc at full range that one beam stands for, where that is finer than a degree.
+constexpr double kArcOfBeam_px = 2.0;
+
 double pixel(const GreyImage& image, double column, double row) noexcept {
   if (!(column >= 0.0 && row >= 0.0 && column <= image.columns - 1.0 && row <= image.rows - 1.0)) {
     return 0.0;
@@ -159,12 +162,12 @@ FanGeometry whole_image_fan(const GreyImage& image, bool apex_at_bottom) noexcep
 }
 
 void fan_to_ping(const GreyImage& image, const FanGeometry& fan, SonarPing& out) noexcept {
-  const double degrees = std::round(to_deg(out.sector_rad));
-  out.make_image(
-      static_cast<std::uint32_t>(std::clamp(degrees, 1.0, static_cast<double>(kMaxBeams))),
-      static_cast<std::uint32_t>(
-          std::clamp(std::round(fan.radius_px), 1.0, static_cast<double>(kMaxBins))),
-      out.sector_rad);
+  const double beams = std::max(std::round(to_deg(out.sector_rad)),
+                                std::round(out.sector_rad * fan.radius_px / kArcOfBeam_px));
+  out.make_image(static_cast<std::uint32_t>(std::clamp(beams, 1.0, static_cast<double>(kMaxBeams))),
+                 static_cast<std::uint32_t>(
+                     std::clamp(std::round(fan.radius_px), 1.0, static_cast<double>(kMaxBins))),
+                 out.sector_rad);
   const double down = fan.range_upwards ? -1.0 : 1.0;
   for (std::uint32_t beam = 0; beam < out.beams; ++beam) {
     const double s = std::sin(out.bearing_rad(beam));

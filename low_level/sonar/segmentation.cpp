@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "low_level/sonar/ping_check.h"
 #include "mid_level/base/check.h"
 
 namespace lodesman {
@@ -12,14 +12,6 @@ namespace {
 
 // The usual level of a stripe's beam is what all but this part of its bins stay below.
 constexpr double kStripeOutliers = 0.05;
-
-bool is_valid(const SonarPing& ping) noexcept {
-  return ping.kind == PingKind::kImage && ping.beams >= 1 && ping.beams <= kMaxBeams &&
-         ping.bins >= 1 && ping.bins <= kMaxBins && ping.echo_count == ping.beams * ping.bins &&
-         std::isfinite(ping.range_m) && ping.range_m > 0.0 && std::isfinite(ping.sector_rad) &&
-         ping.sector_rad <= std::numbers::pi && std::isfinite(ping.first_bearing_rad) &&
-         ping.beam_step_rad > 0.0 && ping.beam_step_rad <= std::numbers::pi;
-}
 
 std::uint32_t first_used_bin(const SonarPing& ping, double min_range_m) noexcept {
   const double bin = std::ceil(min_range_m * ping.bins / ping.range_m - 0.5);
@@ -64,7 +56,7 @@ void Segmenter::segment(const SonarPing& ping, SonarObstacles& out) noexcept {
   out.captured = ping.captured;
   out.range_m = ping.range_m;
   blobs_.begin();
-  if (is_valid(ping)) {
+  if (is_sound_image(ping)) {
     grid_.set(ping, ping.bins);
     copy_without_stripes(ping);
     mark_bright(ping);

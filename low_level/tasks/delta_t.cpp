@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "low_level/sonar/frame_tracks.h"
 #include "low_level/sonar/known_obstacles.h"
+#include "mid_level/geometry/moving_obstacle.h"
 
 namespace lodesman {
 namespace {
@@ -13,21 +13,29 @@ namespace {
 // Without it so long after the ping, the newest one does.
 constexpr Duration kEstimatePatience = std::chrono::milliseconds{10};
 
+void move_tracks(Tracks& tracks, const Eigen::Vector2d& by_m) noexcept {
+  for (Track& track : std::span{tracks.tracks}.first(tracks.count)) {
+    track.shape = translated(track.shape, by_m.x(), by_m.y());
+  }
+}
+
 }  // namespace
 
 DeltaTTask::DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaTOptions options)
     : sonar_{sonar},
       options_{std::move(options)},
-      segmenter_{options_.segmentation},
-      profile_detector_{options_.segmentation},
+      detector_{options_.segmentation},
       vehicle_state_{board.vehicle_state},
       every_state_{board.vehicle_state},
       mission_status_{board.mission_status},
       pings_{writer_of(board, board.sonar_ping, role)},
       obstacles_{writer_of(board, board.sonar_obstacles, role)},
       tracks_{writer_of(board, board.tracks, role)},
+      tracks_before_{board.tracks},
       device_{board, role, DeviceId::kSonar, max_age::kSonarFrame} {
-  if (options_.known_scene) {
+  if (!options_.known_scene) {
+    tracker_.emplace(options_.segmentation.min_range_m);
+  } else {
     oracle_.emplace(*options_.known_scene, options_.track_oracle);
     Reader<Tracks> before{board.tracks};
     if (const auto* last = before.latest(); last != nullptr) {
@@ -38,7 +46,9 @@ DeltaTTask::DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaT
 
 void DeltaTTask::step(Time now) noexcept {
   while (const auto* state = every_state_.next()) {
-    poses_.add(state->value);
+    if (state->value.valid_at <= now + kEstimatePatience) {  // one from the future would stay
+      poses_.add(state->value);
+    }
   }
   holds_ping_ = holds_ping_ || take_ping(now);
   device_.publish(now);
@@ -50,7 +60,7 @@ void DeltaTTask::step(Time now) noexcept {
 
 bool DeltaTTask::take_ping(Time now) noexcept {
   const ReadStatus status = sonar_.poll(now, *ping_);
-  const bool believed = status == ReadStatus::kFresh && sane(*ping_);
+  const bool believed = status == ReadStatus::kFresh && sane(*ping_) && ping_->captured <= now;
   device_.keeper().polled(status, believed, now);
   device_.keeper().ails(sonar_.fault());
   if (!believed) {
@@ -67,35 +77,53 @@ bool DeltaTTask::awaits_estimate(Time now) noexcept {
 }
 
 void DeltaTTask::publish_what_it_shows(Time now) noexcept {
+  bool tracked = true;
   if (options_.known_scene) {
     if (!see_known_scene(now)) {
       return;
     }
-  } else if (ping_->kind == PingKind::kProfile) {
-    profile_detector_.detect(*ping_, *seen_);
   } else {
-    segmenter_.segment(*ping_, *seen_);
+    detector_.detect(*ping_, *seen_);
+    tracked = track_echoes(now);
     move_to_vehicle(options_.mounting, *seen_);
   }
   if (options_.own_zones) {
     make_own_zones(*options_.own_zones, *seen_);
   }
   obstacles_.publish(*seen_, now);
-  if (oracle_ || place_frame(now)) {
+  if (tracked) {
     tracks_.publish(*known_, now);
   }
 }
 
-// By the odometry: in the world an estimate may have moved between the ping and now, by a fix.
-bool DeltaTTask::place_frame(Time now) noexcept {
+// In the odometry frame: in the world an estimate may have moved between two pings, by a fix.
+bool DeltaTTask::track_echoes(Time now) noexcept {
   const auto then = vehicle_state_.fresh(now, max_age::kVehicleState) != nullptr
-                        ? poses_.by_odometry_at(ping_->captured)
+                        ? poses_.odometry_at(ping_->captured)
                         : std::nullopt;
   if (!then) {
     return false;
   }
-  tracks_of_frame(*seen_, *then, *known_);
+  const SonarMounting& mounting = options_.mounting;
+  const VehiclePose head{then->to_world({{mounting.x_m, mounting.y_m}}),
+                         Heading::clockwise_from_y_rad(then->heading.rad() + mounting.turn_rad)};
+  resume_tracks(head);
+  tracker_->see(*ping_, *seen_, head, *known_);
+  move_tracks(*known_, poses_.world_from_odometry_m());
   return true;
+}
+
+void DeltaTTask::resume_tracks(const VehiclePose& head) noexcept {
+  if (resumed_) {
+    return;
+  }
+  resumed_ = true;
+  const auto* last = tracks_before_.latest();
+  if (last != nullptr && sane(last->value)) {
+    *known_ = last->value;
+    move_tracks(*known_, -poses_.world_from_odometry_m());
+    tracker_->resume(*known_, head, ping_->captured);
+  }
 }
 
 bool DeltaTTask::see_known_scene(Time now) noexcept {

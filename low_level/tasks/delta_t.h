@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "drivers/hal/devices.h"
+#include "low_level/sonar/detector.h"
 #include "low_level/sonar/mounting.h"
-#include "low_level/sonar/profile.h"
 #include "low_level/sonar/protection.h"
-#include "low_level/sonar/segmentation.h"
 #include "low_level/sonar/track_oracle.h"
 #include "low_level/tasks/device_report.h"
+#include "low_level/tracking/tracker.h"
 #include "mid_level/geometry/moving_obstacle.h"
 #include "mid_level/geometry/pose_history.h"
 #include "mid_level/runtime/task.h"
@@ -49,14 +49,15 @@ class DeltaTTask final : public Task {
   void publish_what_it_shows(Time now) noexcept;
   // False when the estimate is stale: then nothing is known of where the obstacles are.
   [[nodiscard]] bool see_known_scene(Time now) noexcept;
-  // Tracks of what was just seen, by the odometry at the time of the ping; false when the estimate
-  // is stale or that time is not remembered.
-  [[nodiscard]] bool place_frame(Time now) noexcept;
+  // Obstacles in the head's frame to tracks, by the odometry at the time of the ping; false when
+  // the estimate is stale or that time is not remembered.
+  [[nodiscard]] bool track_echoes(Time now) noexcept;
+  // What one that was here before knew last.
+  void resume_tracks(const VehiclePose& head) noexcept;
 
   ImagingSonar& sonar_;
   DeltaTOptions options_;
-  Segmenter segmenter_;
-  ProfileDetector profile_detector_;
+  Detector detector_;
   Reader<VehicleState> vehicle_state_;
   Reader<VehicleState> every_state_;  // the same, one after the other
   PoseHistory poses_;
@@ -66,6 +67,9 @@ class DeltaTTask final : public Task {
   Writer<SonarObstacles> obstacles_;
   Writer<Tracks> tracks_;
   std::optional<TrackOracle> oracle_;
+  std::optional<Tracker> tracker_;
+  Reader<Tracks> tracks_before_;
+  bool resumed_ = false;
   DeviceReport device_;
   bool holds_ping_ = false;  // published, and waits for its estimate
   // Too large for a stack.

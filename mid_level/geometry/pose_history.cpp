@@ -61,15 +61,17 @@ std::optional<VehiclePose> PoseHistory::at(Time at) const noexcept {
   return poses ? std::optional{poses->world} : std::nullopt;
 }
 
-std::optional<VehiclePose> PoseHistory::by_odometry_at(Time at) const noexcept {
+std::optional<VehiclePose> PoseHistory::odometry_at(Time at) const noexcept {
   const auto poses = poses_at(at);
-  if (!poses) {
-    return std::nullopt;
+  return poses ? std::optional{poses->odometry} : std::nullopt;
+}
+
+Eigen::Vector2d PoseHistory::world_from_odometry_m() const noexcept {
+  if (count_ == 0) {
+    return Eigen::Vector2d::Zero();
   }
   const VehicleState& newest = ring_[(count_ - 1) % kSize];
-  const Eigen::Vector2d world_from_odometry_m{newest.world_from_odometry_x_m(),
-                                              newest.world_from_odometry_y_m()};
-  return VehiclePose{{poses->odometry.p_WV.xy_m + world_from_odometry_m}, poses->odometry.heading};
+  return {newest.world_from_odometry_x_m(), newest.world_from_odometry_y_m()};
 }
 
 }  // namespace lodesman

@@ -18,10 +18,10 @@ class PoseHistory {
   // Interpolated, in the world; empty when `at` lies outside what is remembered (but for 0.1 s
   // after the newest, which counts as the newest).
   [[nodiscard]] std::optional<VehiclePose> at(Time at) const noexcept;
-  // The same by way of the odometry: where the vehicle was then, as seen from where it is now, and
-  // so in the world of the newest estimate. A fix that came in between moves it as a whole and
-  // tears nothing.
-  [[nodiscard]] std::optional<VehiclePose> by_odometry_at(Time at) const noexcept;
+  // The same in the odometry frame, which no fix ever moves.
+  [[nodiscard]] std::optional<VehiclePose> odometry_at(Time at) const noexcept;
+  // [m] From the odometry frame to the world, by the newest estimate; nought without one.
+  [[nodiscard]] Eigen::Vector2d world_from_odometry_m() const noexcept;
 
  private:
   struct Poses {

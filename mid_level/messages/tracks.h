@@ -18,7 +18,8 @@ namespace lodesman {
 // the planner makes zones from what it knows of speed, hull and doubt.
 struct Track {
   std::uint32_t id = 0;  // [-] > 0; kept as long as the obstacle is known
-  Time last_seen{};      // [ns] of the frame that showed it last; its shape is placed for this time
+  Time last_seen{};      // [ns] its shape is placed for this time: of the frame that showed it
+                         // last or, of one's own echoes, that it was foreseen for
   Obstacle shape{};      // [world] at last_seen; its protection semi-axes mean nothing
   double velocity_x_m_s = 0.0;  // [m/s] [world]
   double velocity_y_m_s = 0.0;  // [m/s] [world]

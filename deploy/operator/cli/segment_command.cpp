@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -14,6 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,10 +23,11 @@
 #include "deploy/operator/cli/common_options.h"
 #include "deploy/operator/cli/number_options.h"
 #include "low_level/path/path_finder.h"
+#include "low_level/sonar/detector.h"
 #include "low_level/sonar/ping_image.h"
 #include "low_level/sonar/protection.h"
-#include "low_level/sonar/segmentation.h"
 #include "low_level/sonar/view_image.h"
+#include "low_level/tracking/tracker.h"
 #include "mid_level/base/heading.h"
 #include "mid_level/base/startup_error.h"
 
@@ -45,7 +48,9 @@ struct SegmentOptions {
   double radius_px = 0.0;                        // 0: the image's height
   std::string overlay_dir;
   std::optional<std::array<double, 2>> plan_m;  // x and y
-  double threshold = 0.0;                       // 0: the configuration's
+  bool track = false;                           // the frames are pings one after another
+  double ping_hz = 10.0;
+  double threshold = 0.0;  // 0: the configuration's
 };
 
 // What a goal, or the head's pixel outside an image, may lie away at most.
@@ -57,16 +62,21 @@ DeltaTOptions configured(const SegmentOptions& options) {
   const BoatConfig config = load_configuration("default", options.common);
   DeltaTOptions delta_t = config.low.delta_t;
   if (options.threshold > 0.0) {
+    delta_t.segmentation.method = DetectionMethod::kThreshold;
     delta_t.segmentation.threshold = options.threshold;
   }
   return delta_t;
 }
 
-// The frames of one call, one after another, through one Segmenter as on the vehicle.
+// The frames of one call, one after another, through one Detector as on the vehicle.
 class FrameReader {
  public:
   explicit FrameReader(const SegmentOptions& options)
-      : options_{options}, delta_t_{configured(options)}, segmenter_{delta_t_.segmentation} {}
+      : options_{options}, delta_t_{configured(options)}, detector_{delta_t_.segmentation} {
+    if (options.track) {
+      tracker_.emplace(delta_t_.segmentation.min_range_m);
+    }
+  }
 
   // False, and said, where the file holds no frame.
   [[nodiscard]] bool load(const fs::path& file);
@@ -75,16 +85,19 @@ class FrameReader {
 
  private:
   void take(const GreyImage& image, const fs::path& file);
+  void track();
   void plan(Json& frame);
   void save_overlay(const fs::path& file);
 
   const SegmentOptions& options_;
   DeltaTOptions delta_t_;
-  Segmenter segmenter_;
+  Detector detector_;
+  std::optional<Tracker> tracker_;
   PathFinder path_finder_;
   // On the heap, because a ping is half a megabyte.
   std::unique_ptr<SonarPing> ping_ = std::make_unique<SonarPing>();
   std::unique_ptr<SonarObstacles> obstacles_ = std::make_unique<SonarObstacles>();
+  std::unique_ptr<Tracks> tracks_ = std::make_unique<Tracks>();
   std::unique_ptr<SonarPath> path_ = std::make_unique<SonarPath>();
   std::map<std::string, int> overlay_names_;  // how often each has been used
 };
@@ -118,30 +131,63 @@ void FrameReader::take(const GreyImage& image, const fs::path& file) {
   fan_to_ping(image, fan, *ping_);
 }
 
+// [us] that this thread has had of its processor.
+double processor_time_us() {
+  timespec spent{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
+  return 1e6 * static_cast<double>(spent.tv_sec) + 1e-3 * static_cast<double>(spent.tv_nsec);
+}
+
 // An ellipse is the same turned by half a turn: (-90, 90] says it once.
 double half_turn_deg(double rad) {
   const double deg = to_deg(std::remainder(rad, std::numbers::pi));
   return deg <= -90.0 ? deg + 180.0 : deg;
 }
 
+// A polygon has its vertices, and one distance that its zone reaches to, in place of an ellipse's
+// semi-axes.
 Json to_json(const Obstacle& o) {
-  return {{"centre_m", {o.centre_x_m, o.centre_y_m}},
-          {"semi_axes_m", {o.semi_axis_first_m, o.semi_axis_second_m}},
-          {"angle_deg", half_turn_deg(o.angle_rad)},
-          {"protection_semi_axes_m", {o.protection_first_m, o.protection_second_m}},
-          {"range_m", std::hypot(o.centre_x_m, o.centre_y_m)},
-          {"bearing_deg", to_deg(std::atan2(o.centre_x_m, o.centre_y_m))},
-          {"peak", o.peak}};
+  Json out{{"id", o.id}, {"centre_m", {o.centre_x_m, o.centre_y_m}}};
+  if (o.shape == ObstacleShape::kEllipse) {
+    out["semi_axes_m"] = {o.semi_axis_first_m, o.semi_axis_second_m};
+    out["angle_deg"] = half_turn_deg(o.angle_rad);
+    out["protection_semi_axes_m"] = {o.protection_first_m, o.protection_second_m};
+  } else {
+    out["vertices_m"] = Json::array();
+    for (const Vertex& v : std::span{o.vertices}.first(o.vertex_count)) {
+      out["vertices_m"].push_back({v.x_m, v.y_m});
+    }
+    out["protection_m"] = o.protection_first_m;
+  }
+  out["range_m"] = std::hypot(o.centre_x_m, o.centre_y_m);
+  out["bearing_deg"] = to_deg(std::atan2(o.centre_x_m, o.centre_y_m));
+  out["peak"] = o.peak;
+  return out;
+}
+
+// Of what moves, or may.
+void add_velocity(const Track& track, Json& out) {
+  if (track.velocity_xx_m2_s2 > 0.0) {
+    out["velocity_m_s"] = {track.velocity_x_m_s, track.velocity_y_m_s};
+  }
 }
 
 Json FrameReader::read(const fs::path& file) {
-  segmenter_.segment(*ping_, *obstacles_);
+  const double before_us = processor_time_us();
+  detector_.detect(*ping_, *obstacles_);
+  if (tracker_) {
+    track();
+  }
+  const double us = processor_time_us() - before_us;
   if (delta_t_.own_zones) {
     make_own_zones(*delta_t_.own_zones, *obstacles_);
   }
-  Json frame{{"file", file.string()}, {"obstacles", Json::array()}};
+  Json frame{{"file", file.string()}, {"us", us}, {"obstacles", Json::array()}};
   for (std::uint32_t i = 0; i < obstacles_->count; ++i) {
     frame["obstacles"].push_back(to_json(obstacles_->obstacles[i]));
+    if (tracker_) {
+      add_velocity(tracks_->tracks[i], frame["obstacles"].back());
+    }
   }
   if (obstacles_->dropped > 0) {
     frame["dropped"] = obstacles_->dropped;
@@ -154,6 +200,18 @@ Json FrameReader::read(const fs::path& file) {
     save_overlay(file);
   }
   return frame;
+}
+
+// The head is at rest, so that its frame is the odometry's. What is known takes the place of what
+// is seen.
+void FrameReader::track() {
+  ping_->captured = Time{from_seconds(static_cast<double>(ping_->number) / options_.ping_hz)};
+  obstacles_->captured = ping_->captured;
+  tracker_->see(*ping_, *obstacles_, {}, *tracks_);
+  obstacles_->count = tracks_->count;
+  for (std::uint32_t i = 0; i < tracks_->count; ++i) {
+    obstacles_->obstacles[i] = tracks_->tracks[i].shape;
+  }
 }
 
 void FrameReader::plan(Json& frame) {
@@ -192,17 +250,28 @@ void FrameReader::save_overlay(const fs::path& file) {
   }
 }
 
+void print_obstacle(const Json& o) {
+  std::array<char, 64> place{};
+  std::snprintf(place.data(), place.size(), "  %7.2f m %+7.2f deg  ", o["range_m"].get<double>(),
+                o["bearing_deg"].get<double>());
+  std::array<char, 64> shape{};
+  if (o.contains("vertices_m")) {
+    std::snprintf(shape.data(), shape.size(), "polygon of %zu corners", o["vertices_m"].size());
+  } else {
+    std::snprintf(shape.data(), shape.size(), "%5.2f x %5.2f m at %+4.0f deg",
+                  o["semi_axes_m"][0].get<double>(), o["semi_axes_m"][1].get<double>(),
+                  o["angle_deg"].get<double>());
+  }
+  std::array<char, 32> peak{};
+  std::snprintf(peak.data(), peak.size(), "  peak %3.0f\n", o["peak"].get<double>());
+  std::cout << place.data() << shape.data() << peak.data();
+}
+
 void print_frame(const Json& frame) {
   std::cout << frame["file"].get<std::string>() << ": " << frame["obstacles"].size()
             << " obstacles\n";
   for (const Json& o : frame["obstacles"]) {
-    std::array<char, 128> line{};
-    std::snprintf(line.data(), line.size(),
-                  "  %7.2f m %+7.2f deg  %5.2f x %5.2f m at %+4.0f deg  peak %3.0f\n",
-                  o["range_m"].get<double>(), o["bearing_deg"].get<double>(),
-                  o["semi_axes_m"][0].get<double>(), o["semi_axes_m"][1].get<double>(),
-                  o["angle_deg"].get<double>(), o["peak"].get<double>());
-    std::cout << line.data();
+    print_obstacle(o);
   }
   if (frame.contains("reason")) {
     std::cout << "  path: " << frame["reason"].get<std::string>() << ", " << frame["path_m"].size()
@@ -272,6 +341,11 @@ class SegmentCommand : public CLI::App {
     add_pair_option(*this, "--plan", options_.plan_m, -kFar_m, kFar_m,
                     "Find a path to this goal in the vehicle frame")
         ->type_name("X,Y");
+    add_flag("--track", options_.track,
+             "The frames are pings one after another of a head at rest: follow what they show");
+    add_option("--ping-hz", options_.ping_hz, "--track: pings a second")
+        ->check(number_from(0.1, 100.0))
+        ->capture_default_str();
     add_option("--threshold", options_.threshold, "Echo strength from which a bin is bright")
         ->check(number_from(1.0, 255.0));
     footer("Example:\n  lodesman segment frames/*.pgm --range-m 30 --sector-deg 120 --json");

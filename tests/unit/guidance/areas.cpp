@@ -34,7 +34,7 @@ TEST_CASE("areas: they are walls at rest among the tracks, and give way to none"
   const auto water = std::make_unique<Tracks>();
   water->count = kMaxObstacles;
   const Time now{from_seconds(5)};
-  add_areas(areas, now, *water);
+  add_areas(areas, now, {}, *water);
   CHECK(water->count == kMaxObstacles);
   CHECK(water->dropped == 2);
   const Track& fence = water->tracks[kMaxObstacles - 2];

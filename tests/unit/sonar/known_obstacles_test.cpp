@@ -133,4 +133,21 @@ TEST_CASE("known obstacles: of too many the nearest are kept, in order, and the 
   CHECK(see({}, view_at(0.0, 0.0, 0.0))->count == 0);
 }
 
+TEST_CASE("known obstacles: to_world undoes to_vehicle", "[low_level][sonar]") {
+  const VehiclePose eastward{{{1.0, 2.0}}, Heading::clockwise_from_y_rad(to_rad(90.0))};
+  Obstacle wall;
+  wall.centre_x_m = 3.0;
+  wall.centre_y_m = -2.0;
+  wall.angle_rad = to_rad(30.0);
+  wall.vertex_count = 2;
+  wall.vertices[0] = {4.0, 5.0};
+  wall.vertices[1] = {-6.0, 1.0};
+  const Obstacle there = to_world(eastward, to_vehicle(eastward, wall));
+  CHECK(there.centre_x_m == Approx(3.0));
+  CHECK(there.centre_y_m == Approx(-2.0));
+  CHECK(there.angle_rad == Approx(wall.angle_rad));
+  CHECK(there.vertices[1].x_m == Approx(-6.0));
+  CHECK(there.vertices[1].y_m == Approx(1.0));
+}
+
 }  // namespace lodesman

@@ -160,7 +160,7 @@ TEST_CASE("frame files: a spot to the right in a fan is to starboard, apex up or
   ping->range_m = 30.0;
   ping->sector_rad = to_rad(120.0);
   fan_to_ping(image, whole_image_fan(image, bottom), *ping);
-  CHECK(ping->beams == 120);
+  CHECK(ping->beams == kMaxBeams);
   CHECK(ping->bins == 500);
   const auto seen = std::make_unique<SonarObstacles>();
   Segmenter{testing::shipped_options()}.segment(*ping, *seen);

@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "low_level/sonar/contrast.h"
 #include "low_level/sonar/ping_image.h"
 #include "low_level/sonar/segmentation.h"
+#include "mid_level/geometry/obstacle_distance.h"
 #include "tests/support/catch.h"
 #include "tests/support/data_dir.h"
 #include "tests/unit/sonar/synthetic.h"
@@ -116,7 +118,94 @@ Obstacle brightest(const fs::path& file, double range_m) {
                            [](const Obstacle& a, const Obstacle& b) { return a.peak < b.peak; });
 }
 
+bool in_body(const Obstacle& o, double x_m, double y_m) {
+  return o.shape == ObstacleShape::kEllipse ? testing::holds(o, x_m, y_m) : encloses(o, {x_m, y_m});
+}
+
+// Areas of the ping's cells, which grow with range: what both hold over what either holds.
+double overlap(const Obstacle& o, const SonarPing& mask) {
+  double both = 0.0;
+  double either = 0.0;
+  for (std::uint32_t beam = 0; beam < mask.beams; ++beam) {
+    for (std::uint32_t bin = 0; bin < mask.bins; ++bin) {
+      const double range_m = mask.bin_range_m(bin);
+      const bool labelled = mask.echo[beam * mask.bins + bin] != 0;
+      const bool inside = in_body(o, range_m * std::sin(mask.bearing_rad(beam)),
+                                  range_m * std::cos(mask.bearing_rad(beam)));
+      both += labelled && inside ? range_m : 0.0;
+      either += labelled || inside ? range_m : 0.0;
+    }
+  }
+  return both / either;
+}
+
 }  // namespace
+
+TEST_CASE("real frames: by contrast the labelled target is one obstacle in every frame",
+          "[low_level][sonar][data]") {
+  const auto root = testing::data_path("fls_oculus_m1200d");
+  if (!root) {
+    return;
+  }
+  ContrastDetector detector{testing::shipped_options()};
+  const auto seen = std::make_unique<SonarObstacles>();
+  double sum = 0.0;
+  int frames = 0;
+  for (const Frame& frame : frames_of(*root / "frames.csv")) {
+    const std::string file = frame.name + ".pgm";
+    detector.detect(*read_polar(*root / "polar_120x500" / file, 30.0), *seen);
+    const auto mask = read_polar(*root / "polar_mask_120x500" / file, 30.0);
+    double best = 0.0;
+    for (std::uint32_t i = 0; i < seen->count; ++i) {
+      best = std::max(best, overlap(seen->obstacles[i], *mask));
+    }
+    CAPTURE(frame.name);
+    CHECK(best >= 0.2);
+    CHECK(seen->count <= 8);
+    sum += best;
+    ++frames;
+  }
+  REQUIRE(frames == 31);
+  std::printf("mean overlap %.2f\n", sum / frames);
+  CHECK(sum / frames >= 0.45);
+}
+
+TEST_CASE("real frames: by contrast the same object is found at three range settings",
+          "[low_level][sonar][data]") {
+  const auto root = testing::data_path("fls_oculus_known_range");
+  if (!root) {
+    return;
+  }
+  ContrastDetector detector{testing::shipped_options()};
+  const auto seen = std::make_unique<SonarObstacles>();
+  for (const auto& [name, range_m] :
+       {std::pair{"img_508_5m_1.2MHz.pgm", 5.0}, std::pair{"img_512_10m_1.2MHz.pgm", 10.0},
+        std::pair{"img_514_15m_1.2MHz.pgm", 15.0}}) {
+    detector.detect(*read_polar(*root / "polar_120x500" / name, range_m), *seen);
+    REQUIRE(seen->count == 1);  // neither the stripe ahead nor a ring is another
+    const Obstacle& o = seen->obstacles[0];
+    CHECK(std::hypot(o.centre_x_m, o.centre_y_m) == Approx(3.43).margin(0.12));
+    CHECK(to_deg(std::atan2(o.centre_x_m, o.centre_y_m)) == Approx(22.8).margin(0.8));
+  }
+}
+
+TEST_CASE("real frames: by contrast a cluttered fan is never cut short",
+          "[low_level][sonar][data]") {
+  const auto root = testing::data_path("fls_moving_auv");
+  if (!root) {
+    return;
+  }
+  ContrastDetector detector{testing::shipped_options()};
+  const auto seen = std::make_unique<SonarObstacles>();
+  int frames = 0;
+  for (const auto& entry : fs::directory_iterator{*root / "sonar4"}) {
+    detector.detect(*read_polar(entry.path(), 30.0), *seen);
+    CHECK(seen->dropped == 0);
+    CHECK(seen->count < kMaxObstacles / 2);
+    ++frames;
+  }
+  CHECK(frames == 190);
+}
 
 TEST_CASE("real frames: the labelled target is found in every pass", "[low_level][sonar][data]") {
   const auto root = testing::data_path("fls_oculus_m1200d");

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Up to where each beam of a ping saw nothing: what tells an obstacle that is gone from one that is
+// hidden. One thread; allocates nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "mid_level/base/frames.h"
+#include "mid_level/messages/sonar.h"
+
+namespace lodesman {
+
+class FanView {
+ public:
+  // The ping's beams, and its obstacles in the head's frame. Nothing is heard nearer than
+  // `nearest_m`.
+  void set(const SonarPing& ping, const SonarObstacles& seen, double nearest_m) noexcept;
+
+  [[nodiscard]] std::span<const float> clear_m() const noexcept {
+    return std::span{clear_m_}.first(beams_);
+  }
+  [[nodiscard]] double first_bearing_rad() const noexcept { return first_bearing_rad_; }
+  [[nodiscard]] double beam_step_rad() const noexcept { return beam_step_rad_; }
+  [[nodiscard]] double nearest_m() const noexcept { return nearest_m_; }
+  [[nodiscard]] double farthest_m() const noexcept { return farthest_m_; }
+  // [-] [0, 1] of an ellipse [head's frame] that this ping could show: 0 outside of the fan, behind
+  // what is nearer, or at the fan's edge.
+  [[nodiscard]] double visible_share(const Obstacle& ellipse) const noexcept;
+
+ private:
+  void shade(double beam, double range_m) noexcept;
+  void shade_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to) noexcept;
+  void shade_shape(const Obstacle& o) noexcept;
+  void limit_to_listed(const SonarObstacles& seen) noexcept;
+  [[nodiscard]] double beam_at(double x_m, double y_m) const noexcept;
+
+  std::uint32_t beams_ = 0;
+  double first_bearing_rad_ = 0.0;
+  double beam_step_rad_ = 0.0;
+  double nearest_m_ = 0.0;
+  double farthest_m_ = 0.0;
+  std::array<float, kMaxBeams> clear_m_{};
+};
+
+}  // namespace lodesman
