@@ -116,6 +116,15 @@ BlobEllipse enclose(const PolarGrid& grid, std::span<const std::uint32_t> cells,
   return e;
 }
 
+void put_ellipse(const BlobEllipse& ellipse, Obstacle& out) noexcept {
+  out.shape = ObstacleShape::kEllipse;
+  out.centre_x_m = ellipse.centre_x_m;
+  out.centre_y_m = ellipse.centre_y_m;
+  out.semi_axis_first_m = ellipse.first_m;
+  out.semi_axis_second_m = ellipse.second_m;
+  out.angle_rad = std::atan2(ellipse.axis_x, ellipse.axis_y);
+}
+
 std::size_t split_across(const PolarGrid& grid, std::span<std::uint32_t> cells,
                          const BlobEllipse& ellipse) noexcept {
   const auto along = [&](std::uint32_t cell) {

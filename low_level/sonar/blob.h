@@ -59,6 +59,9 @@ struct BlobEllipse {
 [[nodiscard]] BlobEllipse enclose(const PolarGrid& grid, std::span<const std::uint32_t> cells,
                                   const BlobEllipse& moments, double fraction) noexcept;
 
+// Makes an obstacle of it: neither zone nor peak.
+void put_ellipse(const BlobEllipse& ellipse, Obstacle& out) noexcept;
+
 // Reorders the cells into those behind and those ahead of the middle of the blob's extent along
 // the ellipse's longer axis, and gives the number of the first kind.
 [[nodiscard]] std::size_t split_across(const PolarGrid& grid, std::span<std::uint32_t> cells,

@@ -92,12 +92,7 @@ void BlobObstacles::write(SonarObstacles& out) noexcept {
     const BlobEllipse& e = found_[i].ellipse;
     Obstacle& obstacle = out.obstacles[i];
     obstacle = Obstacle{};
-    obstacle.shape = ObstacleShape::kEllipse;
-    obstacle.centre_x_m = e.centre_x_m;
-    obstacle.centre_y_m = e.centre_y_m;
-    obstacle.semi_axis_first_m = e.first_m;
-    obstacle.semi_axis_second_m = e.second_m;
-    obstacle.angle_rad = std::atan2(e.axis_x, e.axis_y);
+    put_ellipse(e, obstacle);
     obstacle.protection_first_m = e.first_m + margin_m_;
     obstacle.protection_second_m = e.second_m + margin_m_;
     obstacle.peak = found_[i].peak;

@@ -167,7 +167,6 @@ void BrightRuns::sum_up(const EchoPlane& plane, const RangeLevels& levels) noexc
           cells[bin] / std::max(1.0, static_cast<double>(levels.background[bin]));
       echo.has_seed = echo.has_seed || cells[bin] > levels.seed[bin];
       echo.energy += (contrast - 1.0) / levels.needed_excess;
-      echo.contrast = std::max(echo.contrast, contrast);
     }
   }
 }

@@ -23,8 +23,7 @@ struct BrightRun {
 struct EchoSum {
   std::uint32_t first_run = 0;  // in echo_runs()
   std::uint32_t run_count = 0;
-  double energy = 0.0;    // [-] excesses of all its cells, in those that one needs
-  double contrast = 0.0;  // [-] of its brightest cell, over its background
+  double energy = 0.0;  // [-] excesses of all its cells, in those that one needs
   bool has_seed = false;
 };
 

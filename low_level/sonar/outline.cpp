@@ -7,7 +7,7 @@
 namespace lodesman {
 namespace {
 
-// Half of what smoothing spreads an edge by.
+// Two thirds of what smoothing spreads an edge by.
 constexpr double kBlurBins = (kSmoothBins - 1) / 3.0;
 constexpr std::uint32_t kSideVertices = kMaxVertices / 2;
 constexpr double kEnclosedFraction = 0.95;  // of a small echo's area that its ellipse holds
@@ -200,13 +200,7 @@ void EchoOutline::write_ellipse(const PolarGrid& grid, std::span<const BrightRun
     }
   }
   const std::span<std::uint32_t> cells = std::span{cells_}.first(count);
-  const BlobEllipse ellipse = enclose(grid, cells, moment_ellipse(grid, cells), kEnclosedFraction);
-  out.shape = ObstacleShape::kEllipse;
-  out.centre_x_m = ellipse.centre_x_m;
-  out.centre_y_m = ellipse.centre_y_m;
-  out.semi_axis_first_m = ellipse.first_m;
-  out.semi_axis_second_m = ellipse.second_m;
-  out.angle_rad = std::atan2(ellipse.axis_x, ellipse.axis_y);
+  put_ellipse(enclose(grid, cells, moment_ellipse(grid, cells), kEnclosedFraction), out);
 }
 
 }  // namespace lodesman

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 
-#include "mid_level/messages/fields.h"
 #include "mid_level/messages/sonar.h"
 
 namespace lodesman {
@@ -13,9 +12,6 @@ enum class DetectionMethod : std::uint8_t {
   kContrast,   // against the background that the ping itself shows
   kThreshold,  // section 5 of the paper: a fixed level
 };
-[[nodiscard]] constexpr auto enumerators(DetectionMethod) noexcept {
-  return enumerators_to<DetectionMethod::kThreshold>("contrast", "threshold");
-}
 
 inline constexpr std::uint32_t kMaxJoin = 8;
 

@@ -30,8 +30,7 @@ void FanView::set(const SonarPing& ping, const SonarObstacles& seen, double near
   farthest_m_ = ping.range_m;
   std::fill_n(clear_m_.begin(), beams_, static_cast<float>(farthest_m_));
   for (std::uint32_t i = 0; i < std::min<std::uint32_t>(seen.count, kMaxObstacles); ++i) {
-    const Obstacle& o = seen.obstacles[i];
-    shade_shape(o);
+    shade_shape(seen.obstacles[i]);
   }
   limit_to_listed(seen);
 }

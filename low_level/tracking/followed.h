@@ -9,7 +9,6 @@
 
 #include <Eigen/Core>
 
-#include "mid_level/messages/fields.h"
 #include "mid_level/messages/obstacle.h"
 #include "mid_level/messages/tracks.h"
 
@@ -20,9 +19,6 @@ enum class Motion : std::uint8_t {
   kResting,
   kMoving,
 };
-[[nodiscard]] constexpr auto enumerators(Motion) noexcept {
-  return enumerators_to<Motion::kMoving>("undecided", "resting", "moving");
-}
 
 // An obstacle of one ping as the filter takes it: an ellipse whose middle is measured.
 struct Sighting {

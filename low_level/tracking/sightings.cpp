@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "low_level/sonar/known_obstacles.h"
 #include "mid_level/geometry/obstacle_distance.h"
 
 namespace lodesman {
@@ -79,14 +78,6 @@ Sighting sighting_of(const Obstacle& in_head, const VehiclePose& head,
   seen.covariance = along_sigma_m * along_sigma_m * ahead * ahead.transpose() +
                     across_sigma_m * across_sigma_m * aside * aside.transpose();
   return seen;
-}
-
-Obstacle in_odometry(const Obstacle& in_head, const VehiclePose& head) noexcept {
-  return to_world(head, in_head);
-}
-
-Obstacle in_head(const Obstacle& in_odometry, const VehiclePose& head) noexcept {
-  return to_vehicle(head, in_odometry);
 }
 
 }  // namespace lodesman

@@ -18,7 +18,4 @@ namespace lodesman {
 [[nodiscard]] Sighting sighting_of(const Obstacle& in_head, const VehiclePose& head,
                                    double beam_width_rad) noexcept;
 
-[[nodiscard]] Obstacle in_odometry(const Obstacle& in_head, const VehiclePose& head) noexcept;
-[[nodiscard]] Obstacle in_head(const Obstacle& in_odometry, const VehiclePose& head) noexcept;
-
 }  // namespace lodesman

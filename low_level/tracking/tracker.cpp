@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "low_level/sonar/known_obstacles.h"
 #include "low_level/tracking/sightings.h"
 #include "mid_level/base/time.h"
 
@@ -139,7 +140,7 @@ void Tracker::place(const SonarPing& ping, const SonarObstacles& seen,
   for (std::size_t i = 0; i < seen_count_; ++i) {
     seen_[i] = {};
     seen_[i].compact = is_compact(seen.obstacles[i]);
-    seen_[i].shape = in_odometry(seen.obstacles[i], head);
+    seen_[i].shape = to_world(head, seen.obstacles[i]);
     if (seen_[i].compact) {
       seen_[i].sighting = sighting_of(seen.obstacles[i], head, ping.beam_step_rad);
       seen_[i].shape = seen_[i].sighting.shape;
@@ -183,7 +184,7 @@ void Tracker::update_followed(const VehiclePose& head, double dt_s) noexcept {
     if (sighting_of_[f] != kNone) {
       update(one, seen_[sighting_of_[f]].sighting, now_s_);
     } else {
-      miss(one, fan_.visible_share(in_head(shape_of(one), head)));
+      miss(one, fan_.visible_share(to_vehicle(head, shape_of(one))));
     }
     decide_motion(one, in_open_water(one), now_s_, dt_s);
     if (one.motion == Motion::kMoving && before == Motion::kResting) {
