@@ -18,8 +18,8 @@ inline constexpr std::size_t kFanBeams = 120;
 
 // A boat in the odometry frame, whose sonar sees 120 degrees ahead.
 class GridWatch {
-public:
-  EvidenceGrid &grid() { return *grid_; }
+ public:
+  EvidenceGrid& grid() { return *grid_; }
   void go_to(double x_m, double y_m, double heading_deg = 0.0) {
     look_.pose.p_WV.xy_m = {x_m, y_m};
     look_.pose.heading = Heading::clockwise_from_y_rad(to_rad(heading_deg));
@@ -35,15 +35,13 @@ public:
       grid_->look(look_);
     }
   }
-  void hit(const Obstacle &shape) { grid_->add(shape, look_.at_s); }
-  WaterState at(double x_m, double y_m) const {
-    return grid_->state({x_m, y_m});
-  }
+  void hit(const Obstacle& shape) { grid_->add(shape, look_.at_s); }
+  WaterState at(double x_m, double y_m) const { return grid_->state({x_m, y_m}); }
 
-  Look &look() { return look_; }
-  std::vector<float> &clear_m() { return clear_m_; }
+  Look& look() { return look_; }
+  std::vector<float>& clear_m() { return clear_m_; }
 
-private:
+ private:
   std::unique_ptr<EvidenceGrid> grid_ = std::make_unique<EvidenceGrid>();
   std::vector<float> clear_m_ = std::vector<float>(kFanBeams, 30.0F);
   Look look_{.pose = {},
@@ -63,7 +61,7 @@ inline Obstacle stone_at(double x_m, double y_m, double radius_m) {
   return o;
 }
 
-inline Obstacle polygon_of(const std::vector<Vertex> &corners) {
+inline Obstacle polygon_of(const std::vector<Vertex>& corners) {
   Obstacle o;
   o.shape = ObstacleShape::kPolygon;
   o.vertex_count = static_cast<std::uint32_t>(corners.size());
@@ -71,32 +69,26 @@ inline Obstacle polygon_of(const std::vector<Vertex> &corners) {
   return o;
 }
 
-inline Obstacle box_between(double west_m, double south_m, double east_m,
-                            double north_m) {
-  return polygon_of({{west_m, south_m},
-                     {east_m, south_m},
-                     {east_m, north_m},
-                     {west_m, north_m}});
+inline Obstacle box_between(double west_m, double south_m, double east_m, double north_m) {
+  return polygon_of({{west_m, south_m}, {east_m, south_m}, {east_m, north_m}, {west_m, north_m}});
 }
 
 // From a to b, so wide.
-inline Obstacle strip_along(const Place &a, const Place &b, double wide_m) {
+inline Obstacle strip_along(const Place& a, const Place& b, double wide_m) {
   const Place way = (b - a).normalized();
   const Place off = 0.5 * wide_m * Place{way.y(), -way.x()};
   std::vector<Vertex> corners;
-  for (const Place &p :
-       {Place{a + off}, Place{b + off}, Place{b - off}, Place{a - off}}) {
+  for (const Place& p : {Place{a + off}, Place{b + off}, Place{b - off}, Place{a - off}}) {
     corners.push_back({p.x(), p.y()});
   }
   return polygon_of(corners);
 }
 
-inline std::vector<Place> occupied_places(const EvidenceGrid &grid) {
+inline std::vector<Place> occupied_places(const EvidenceGrid& grid) {
   std::vector<Place> out;
-  for (int row = grid.first_row(); row < grid.first_row() + EvidenceGrid::kSide;
-       ++row) {
-    for (int column = grid.first_column();
-         column < grid.first_column() + EvidenceGrid::kSide; ++column) {
+  for (int row = grid.first_row(); row < grid.first_row() + EvidenceGrid::kSide; ++row) {
+    for (int column = grid.first_column(); column < grid.first_column() + EvidenceGrid::kSide;
+         ++column) {
       const Place p = Place{column + 0.5, row + 0.5} * EvidenceGrid::kCell_m;
       if (grid.state(p) == WaterState::kOccupied) {
         out.push_back(p);
@@ -106,4 +98,4 @@ inline std::vector<Place> occupied_places(const EvidenceGrid &grid) {
   return out;
 }
 
-} // namespace lodesman::testing
+}  // namespace lodesman::testing
