@@ -117,6 +117,9 @@ void BoatStatus::add_place(ordered_json& reply, Time now) {
                      {"rung", to_string(plan->value.rung)},
                      {"waypoints", to_string(plan->value.source)},
                      {"age_s", to_seconds(now - plan->stamp)}};
+    if (std::isfinite(plan->value.seen_ahead_m)) {
+      reply["plan"]["seen_ahead_m"] = plan->value.seen_ahead_m;
+    }
   }
   if (const auto* helm = helm_.latest(); helm != nullptr) {
     reply["helm"] = to_string(helm->value.reason);

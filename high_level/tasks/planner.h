@@ -28,8 +28,8 @@ class PlannerTask final : public Task {
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override {
     return refused_by(definitions_, orders_, link_, tunables_, vehicle_state_, obstacles_, tracks_,
-                      sonar_path_, attitude_, position_fix_, plan_, helm_, thrust_applied_,
-                      thrust_status_);
+                      coverage_, sonar_path_, attitude_, position_fix_, plan_, helm_,
+                      thrust_applied_, thrust_status_);
   }
   [[nodiscard]] std::span<ChannelLook<>* const> inputs() noexcept override { return inputs_; }
 
@@ -89,6 +89,7 @@ class PlannerTask final : public Task {
   Reader<VehicleState> vehicle_state_;
   Reader<SonarObstacles> obstacles_;
   Reader<Tracks> tracks_;
+  Reader<Coverage> coverage_;
   Reader<SonarPath> sonar_path_;
   Reader<Attitude> attitude_;
   Reader<PositionFix> position_fix_;
@@ -97,10 +98,10 @@ class PlannerTask final : public Task {
   Reader<HelmCommand> helm_;
   Reader<ThrustApplied> thrust_applied_;
   Reader<ThrustStatus> thrust_status_;
-  std::array<ChannelLook<>*, 13> inputs_{
-      &definitions_,  &orders_,         &link_,         &tunables_, &attitude_,
-      &position_fix_, &vehicle_state_,  &obstacles_,    &tracks_,   &sonar_path_,
-      &helm_,         &thrust_applied_, &thrust_status_};
+  std::array<ChannelLook<>*, 14> inputs_{
+      &definitions_,  &orders_,        &link_,           &tunables_,     &attitude_,
+      &position_fix_, &vehicle_state_, &obstacles_,      &tracks_,       &coverage_,
+      &sonar_path_,   &helm_,          &thrust_applied_, &thrust_status_};
   Writer<PathRequest> requests_;
   Writer<Plan> plans_;
   Writer<MissionStatus> statuses_;

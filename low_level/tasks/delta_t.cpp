@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "low_level/sonar/known_obstacles.h"
+#include "low_level/tracking/seen_water.h"
 #include "mid_level/geometry/moving_obstacle.h"
 
 namespace lodesman {
@@ -30,6 +31,7 @@ DeltaTTask::DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaT
       mission_status_{board.mission_status},
       pings_{writer_of(board, board.sonar_ping, role)},
       obstacles_{writer_of(board, board.sonar_obstacles, role)},
+      coverage_{writer_of(board, board.coverage, role)},
       tracks_{writer_of(board, board.tracks, role)},
       tracks_before_{board.tracks},
       device_{board, role, DeviceId::kSonar, max_age::kSonarFrame} {
@@ -92,6 +94,9 @@ void DeltaTTask::publish_what_it_shows(Time now) noexcept {
   }
   obstacles_.publish(*seen_, now);
   if (tracked) {
+    if (tracker_) {
+      coverage_.publish(*water_, now);  // before what wakes its reader
+    }
     tracks_.publish(*known_, now);
   }
 }
@@ -109,8 +114,18 @@ bool DeltaTTask::track_echoes(Time now) noexcept {
                          Heading::clockwise_from_y_rad(then->heading.rad() + mounting.turn_rad)};
   resume_tracks(head);
   tracker_->see(*ping_, *seen_, head, *known_);
-  move_tracks(*known_, poses_.world_from_odometry_m());
+  describe_water(tracker_->water(), head.p_WV.xy_m, to_seconds(ping_->captured.time_since_epoch()),
+                 heard_from_m(options_.segmentation.min_range_m, ping_->range_m), *water_);
+  water_->frame = ping_->number;
+  water_->captured = ping_->captured;
+  move_to_world(poses_.world_from_odometry_m());
   return true;
+}
+
+void DeltaTTask::move_to_world(const Eigen::Vector2d& from_odometry_m) noexcept {
+  move_tracks(*known_, from_odometry_m);
+  water_->west_x_m += from_odometry_m.x();
+  water_->south_y_m += from_odometry_m.y();
 }
 
 void DeltaTTask::resume_tracks(const VehiclePose& head) noexcept {

@@ -52,6 +52,7 @@ class DeltaTTask final : public Task {
   // Obstacles in the head's frame to tracks, by the odometry at the time of the ping; false when
   // the estimate is stale or that time is not remembered.
   [[nodiscard]] bool track_echoes(Time now) noexcept;
+  void move_to_world(const Eigen::Vector2d& from_odometry_m) noexcept;
   // What one that was here before knew last.
   void resume_tracks(const VehiclePose& head) noexcept;
 
@@ -65,6 +66,7 @@ class DeltaTTask final : public Task {
   std::array<ChannelLook<>*, 3> inputs_{&every_state_, &vehicle_state_, &mission_status_};
   Writer<SonarPing> pings_;
   Writer<SonarObstacles> obstacles_;
+  Writer<Coverage> coverage_;
   Writer<Tracks> tracks_;
   std::optional<TrackOracle> oracle_;
   std::optional<Tracker> tracker_;
@@ -75,6 +77,7 @@ class DeltaTTask final : public Task {
   // Too large for a stack.
   std::unique_ptr<SonarPing> ping_ = std::make_unique<SonarPing>();
   std::unique_ptr<SonarObstacles> seen_ = std::make_unique<SonarObstacles>();
+  std::unique_ptr<Coverage> water_ = std::make_unique<Coverage>();
   std::unique_ptr<Tracks> known_ = std::make_unique<Tracks>();
 };
 

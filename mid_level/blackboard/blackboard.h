@@ -12,6 +12,7 @@
 #include "mid_level/blackboard/wake_edges.h"
 #include "mid_level/messages/arming.h"
 #include "mid_level/messages/command.h"
+#include "mid_level/messages/coverage.h"
 #include "mid_level/messages/guard.h"
 #include "mid_level/messages/health.h"
 #include "mid_level/messages/mission.h"
@@ -68,6 +69,7 @@ struct Blackboard {
   Channel<EstimatorMemory, 4> estimator_memory;
   Channel<SonarPing, 4> sonar_ping;
   Channel<SonarObstacles, 16> sonar_obstacles;
+  Channel<Coverage, 8> coverage;
   Channel<Tracks, 8> tracks;
   Channel<PathRequest, 8> path_request;
   Channel<SonarPath, 8> sonar_path;
@@ -132,6 +134,7 @@ void for_each_channel(Board& board, Visit visit) {
   visit(ChannelInfo{"sonar_ping", Role::kLow, "delta_t", max_age::kSonarFrame}, board.sonar_ping);
   visit(ChannelInfo{"sonar_obstacles", Role::kLow, "delta_t", max_age::kSonarFrame},
         board.sonar_obstacles);
+  visit(ChannelInfo{"coverage", Role::kLow, "delta_t", max_age::kSonarFrame}, board.coverage);
   visit(ChannelInfo{"tracks", Role::kLow, "delta_t", max_age::kSonarFrame}, board.tracks);
   visit(ChannelInfo{"path_request", Role::kHigh, "planner", max_age::kNoLimit}, board.path_request);
   visit(ChannelInfo{"sonar_path", Role::kLow, "path_finder", max_age::kNoLimit}, board.sonar_path);

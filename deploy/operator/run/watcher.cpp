@@ -308,8 +308,9 @@ PlanRecord RunWatcher::describe(const Stamped<Plan>& published, const SonarPath*
   record.changed = plan.changed;
   record.cause = plan.cause;
   record.clearance_after_s = plan.clearance_after_s;
-  if (plan.steer_by != SteerBy::kWaypoints && std::isfinite(plan.clearance_m)) {
-    record.clearance_m = plan.clearance_m;
+  record.seen_ahead_m = if_finite(plan.seen_ahead_m);
+  if (plan.steer_by != SteerBy::kWaypoints) {
+    record.clearance_m = if_finite(plan.clearance_m);
   }
   if (plan.steer_by == SteerBy::kCourse) {
     record.course_deg = compass_deg(plan.course_rad);
