@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "deploy/boat/device_contract.h"
+#include "deploy/boat/voyage.h"
 
 namespace lodesman {
 namespace {
@@ -130,6 +131,15 @@ void require_faults(const BoatConfig& config, const Scenario& scenario) {
                                "hil)");
       }
     }
+  }
+}
+
+void require_scene(const BoatConfig& config, const Scenario& scenario) {
+  const DeviceContract& sonar = sonar_contract();
+  if (sailed_sonar(config, scenario).scene == SonarScene::kDetections &&
+      scheme_of(config.devices.*sonar.address) != "sim") {
+    config.document.root().table("devices").refuse(
+        sonar.key, "must be sim: in the scene \"detections\", which no other sonar gives");
   }
 }
 

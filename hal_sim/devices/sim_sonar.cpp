@@ -9,7 +9,8 @@ SimSonar::SimSonar(const Scenario& scenario, SimLink& link)
     : feed_{link, link.sonar_due, from_seconds(1.0 / scenario.sonar.ping_hz),
             FaultSchedule{scenario.faults, FaultDevice::kSonar}},
       settings_{scenario.sonar},
-      scene_{scenario.obstacles} {}
+      scene_{scenario.obstacles},
+      detections_{scenario.obstacles.size(), scenario.sonar.detections, scenario.seed} {}
 
 ReadStatus SimSonar::poll(Time now, SonarPing& out) noexcept {
   const SampleFeed::Due due = feed_.poll(now);
@@ -17,7 +18,11 @@ ReadStatus SimSonar::poll(Time now, SonarPing& out) noexcept {
     ++pings_;  // a ping that was lost leaves a gap in the numbers
   }
   if (due.status == ReadStatus::kFresh) {
-    listen(due.sample, out);
+    if (settings_.scene == SonarScene::kDetections) {
+      detect(due.sample, out);
+    } else {
+      listen(due.sample, out);
+    }
   }
   return due.status;
 }
@@ -33,6 +38,15 @@ void SimSonar::listen(const WorldSample& world, SonarPing& out) noexcept {
     draw_echo(scene_.range_m(out.bearing_rad(beam)), out.range_m,
               std::span{out.echo}.subspan(std::size_t{beam} * out.bins, out.bins));
   }
+}
+
+void SimSonar::detect(const WorldSample& world, SonarPing& out) noexcept {
+  out.number = pings_;
+  out.captured = world.stamp;
+  out.range_m = settings_.range_m;
+  out.make_profile(settings_.beams, settings_.sector_rad);
+  scene_.observe(world.pose(), world.scenario_time_s);
+  detections_.detect(scene_, out);
 }
 
 }  // namespace lodesman

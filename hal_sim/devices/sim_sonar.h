@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A simulated multibeam sonar at the vehicle's origin, looking ahead: in each beam a clean echo of
-// the nearest surface and nothing behind it. Polled by the one thread that owns it.
+// the nearest surface and nothing behind it; or, where the scene is `detections`, a profile of what
+// its own detection makes of that. Polled by the one thread that owns it.
 #pragma once
 
 #include "drivers/hal/devices.h"
 #include "hal_sim/devices/sample_feed.h"
 #include "hal_sim/scenario/scenario.h"
+#include "hal_sim/sonar/detections.h"
 #include "hal_sim/sonar/heard_scene.h"
 
 namespace lodesman {
@@ -19,10 +21,12 @@ class SimSonar final : public ImagingSonar {
 
  private:
   void listen(const WorldSample& world, SonarPing& out) noexcept;
+  void detect(const WorldSample& world, SonarPing& out) noexcept;
 
   SampleFeed feed_;
   ScenarioSonar settings_;
   HeardScene scene_;
+  Detections detections_;
   std::uint64_t pings_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/scenario/detection_errors.h"
 #include "hal_sim/scenario/fault.h"
 #include "mid_level/base/frames.h"
 #include "mid_level/base/speed_table.h"
@@ -48,8 +49,9 @@ struct ScenarioPosition {
 };
 
 enum class SonarScene : std::uint8_t {
-  kObstacles,  // the low level draws the known obstacles
-  kBeams,      // simulated echoes, segmented and tracked
+  kObstacles,   // the low level draws the known obstacles
+  kBeams,       // simulated echoes, segmented and tracked
+  kDetections,  // simulated returns, a range a beam, with errors by rate; tracked
 };
 enum class SonarNoise : std::uint8_t { kNone, kTank, kSea };
 
@@ -61,6 +63,7 @@ struct ScenarioSonar {
   std::uint32_t beams = 120;
   std::uint32_t bins = 500;
   double ping_hz = 10.0;
+  DetectionErrors detections;  // of kDetections alone
 };
 
 struct Scenario {

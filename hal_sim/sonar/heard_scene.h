@@ -4,6 +4,9 @@
 // for a real one to the byte. One thread; nothing here allocates once it is made, or throws.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,9 +24,19 @@ class HeardScene {
   // [m] to the nearest surface along a ray [rad], clockwise from straight ahead; infinity: none.
   [[nodiscard]] double range_m(double bearing_rad) const noexcept;
 
+  // What a ray meets first.
+  struct Surface {
+    double range_m = std::numeric_limits<double>::infinity();  // [m] infinity: nothing
+    std::size_t obstacle = 0;  // [-] whose surface, in the order in which they were given
+  };
+  // The same, as if each obstacle lay turned round the sonar by so much [rad], clockwise.
+  [[nodiscard]] Surface nearest(double bearing_rad,
+                                std::span<const double> turned_rad) const noexcept;
+
  private:
   std::vector<MovingObstacle> obstacles_;
-  std::vector<Obstacle> scene_;  // room for all was made once
+  std::vector<Obstacle> scene_;     // room for all was made once
+  std::vector<std::size_t> which_;  // of each in the scene: which obstacle it is
   VehiclePose pose_;
 };
 

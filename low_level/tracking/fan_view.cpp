@@ -55,6 +55,7 @@ void FanView::set(const SonarPing& ping, const SonarObstacles& seen, double near
     shade_shape(seen.obstacles[i]);
   }
   limit_to_listed(seen);
+  limit_to_returns(ping);
 }
 
 // Beyond the farthest of a list that was too short nothing is known.
@@ -66,6 +67,16 @@ void FanView::limit_to_listed(const SonarObstacles& seen) noexcept {
   const double listed_m = std::hypot(last.centre_x_m, last.centre_y_m);
   for (float& clear : std::span{clear_m_}.first(beams_)) {
     clear = std::min(clear, static_cast<float>(listed_m));
+  }
+}
+
+// A beam of a profile saw no farther than its return, whether or not that became an obstacle.
+void FanView::limit_to_returns(const SonarPing& ping) noexcept {
+  const auto returns = std::min<std::uint32_t>(beams_, ping.point_count);
+  for (std::uint32_t beam = 0; beam < returns; ++beam) {
+    if (ping.points[beam].range_m > 0.0) {
+      clear_m_[beam] = std::min(clear_m_[beam], static_cast<float>(ping.points[beam].range_m));
+    }
   }
 }
 

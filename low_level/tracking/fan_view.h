@@ -57,6 +57,7 @@ class FanView {
   void shade_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to) noexcept;
   void shade_shape(const Obstacle& o) noexcept;
   void limit_to_listed(const SonarObstacles& seen) noexcept;
+  void limit_to_returns(const SonarPing& ping) noexcept;
   [[nodiscard]] double beam_at(double x_m, double y_m) const noexcept;
   [[nodiscard]] bool is_hidden(double beam, double range_m) const noexcept;
 

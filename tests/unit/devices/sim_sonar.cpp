@@ -7,6 +7,7 @@
 
 #include "hal_sim/sonar/echo.h"
 #include "hal_sim/world/clearance.h"
+#include "mid_level/messages/sane.h"
 #include "tests/support/catch.h"
 #include "tests/unit/devices/support.h"
 
@@ -101,6 +102,38 @@ TEST_CASE("sim sonar: only what exists then, where it is then", "[hal_sim][devic
   HandWorld later;
   later.state.scenario_time_s = 2.98;
   CHECK(first_echo(*ping_of(scenario, later), 0) == 100);
+}
+
+TEST_CASE("sim sonar: in the scene of detections a ping is a profile, with the scenario's errors",
+          "[hal_sim][devices]") {
+  Scenario scenario;
+  scenario.seed = 3;
+  scenario.sonar.beams = 121;
+  scenario.sonar.scene = SonarScene::kDetections;
+  scenario.obstacles = {circle(0.0, 10.0, 1.0)};
+  const auto middle_of = [&](double y_m, double time_s) {
+    HandWorld world;
+    world.state.y_m = y_m;
+    world.state.scenario_time_s = time_s;
+    const auto ping = ping_of(scenario, world);
+    CHECK(ping->kind == PingKind::kProfile);
+    CHECK(sane(*ping));
+    CHECK(ping->number == 1);
+    CHECK(ping->captured == world.now());
+    CHECK(ping->beams == 121);
+    CHECK(ping->bearing_rad(60) == Approx(0.0).margin(1e-12));
+    return ping->points[60].range_m;
+  };
+  CHECK(middle_of(0.0, 0.0) == Approx(9.0));
+  CHECK(middle_of(4.0, 0.0) == Approx(5.0));
+  scenario.obstacles[0].velocity_y_m_s = 0.5;
+  CHECK(middle_of(0.0, 3.98) == Approx(11.0));
+  scenario.sonar.detections.noise_m = 0.1;
+  const double noisy_m = middle_of(0.0, 3.98);
+  CHECK(std::abs(noisy_m - 11.0) > 1e-6);
+  CHECK(std::abs(noisy_m - 11.0) < 0.6);
+  scenario.seed = 4;
+  CHECK(std::abs(middle_of(0.0, 3.98) - noisy_m) > 1e-6);
 }
 
 TEST_CASE("sim sonar: every ray meets an edge, and passes through none before",

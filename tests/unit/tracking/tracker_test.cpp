@@ -242,6 +242,23 @@ TEST_CASE("tracker: a wall is what rests, from its first sight", "[low_level][tr
   }
 }
 
+TEST_CASE("tracker: behind a return of which no obstacle came nothing is known to be free",
+          "[low_level][tracking]") {
+  Bench bench;
+  bench.ping->make_profile(120, bench.ping->sector_rad);
+  for (std::uint32_t beam = 52; beam < 68; ++beam) {
+    bench.ping->points[beam].range_m = 10.0;
+  }
+  for (int i = 0; i < 20; ++i) {
+    bench.hear({});
+  }
+  const EvidenceGrid& water = bench.tracker->water();
+  CHECK(water.state({0.0, 9.0}) == WaterState::kFree);
+  CHECK(water.state({0.0, 11.0}) == WaterState::kUnknown);
+  CHECK(water.state({0.0, 25.0}) == WaterState::kUnknown);
+  CHECK(water.state({12.0, 20.0}) == WaterState::kFree);  // beams without a return
+}
+
 TEST_CASE("tracker: another one that goes on with its tracks knows the same",
           "[low_level][tracking]") {
   Bench bench;
