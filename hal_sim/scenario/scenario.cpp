@@ -120,9 +120,6 @@ void require_reachable(const TomlTable& table, const Scenario& scenario) {
   }
   if (table.has("noise")) {
     sonar.noise = static_cast<SonarNoise>(table.choice("noise", {"none", "tank", "sea"}));
-    if (sonar.noise != SonarNoise::kNone) {
-      table.refuse("noise", "is not simulated yet: must be none");
-    }
   }
   sonar.range_m = table.number_or("range_m", Range::between(1.0, 300.0), sonar.range_m);
   sonar.sector_rad =

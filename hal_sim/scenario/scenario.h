@@ -53,11 +53,12 @@ enum class SonarScene : std::uint8_t {
   kBeams,       // simulated echoes, segmented and tracked
   kDetections,  // simulated returns, a range a beam, with errors by rate; tracked
 };
+// What the simulated sonar hears besides clean echoes: docs/sonar_simulation.md.
 enum class SonarNoise : std::uint8_t { kNone, kTank, kSea };
 
 struct ScenarioSonar {
   SonarScene scene = SonarScene::kObstacles;
-  SonarNoise noise = SonarNoise::kNone;  // only kNone is simulated so far
+  SonarNoise noise = SonarNoise::kNone;
   double range_m = 30.0;
   double sector_rad = to_rad(120.0);
   std::uint32_t beams = 120;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a multibeam sonar at the vehicle's origin, looking ahead, hears: in each beam a clean echo
-// of the nearest surface and nothing behind it. Shared by the simulated sonar and by what stands in
-// for a real one to the byte. One thread; nothing here allocates once it is made, or throws.
+// of the nearest surface and nothing behind it; what real water adds is noisy_water.h's. Shared by
+// the simulated sonar and by what stands in for a real one to the byte. One thread; nothing here
+// allocates once it is made, or throws.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +11,18 @@
 #include <span>
 #include <vector>
 
+#include "hal_sim/sonar/echo.h"
 #include "mid_level/base/frames.h"
 #include "mid_level/geometry/moving_obstacle.h"
 
 namespace lodesman {
+
+// What a ray meets first; `obstacle` is null where it meets nothing, and valid up to the next
+// observe().
+struct HeardSurface {
+  SurfaceHit hit;
+  const Obstacle* obstacle = nullptr;
+};
 
 class HeardScene {
  public:
@@ -23,6 +32,12 @@ class HeardScene {
   void observe(const VehiclePose& pose, double scenario_time_s) noexcept;
   // [m] to the nearest surface along a ray [rad], clockwise from straight ahead; infinity: none.
   [[nodiscard]] double range_m(double bearing_rad) const noexcept;
+  // The same with how the ray meets it.
+  [[nodiscard]] HeardSurface surface(double bearing_rad) const noexcept;
+
+  [[nodiscard]] const VehiclePose& pose() const noexcept { return pose_; }
+  // What there is, in the world.
+  [[nodiscard]] std::span<const Obstacle> obstacles() const noexcept { return scene_; }
 
   // What a ray meets first.
   struct Surface {
