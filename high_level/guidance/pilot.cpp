@@ -217,7 +217,7 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
   plan.steer_by = aside ? SteerBy::kCourse : SteerBy::kLine;
   plan.course_rad = wrap_to_pi(route_rad + (aside ? choice.manoeuvre.offset_rad : 0.0));
   plan.speed_share = choice.manoeuvre.speed_share;
-  if (aside && plan.speed_share > 0.0) {
+  if (aside && plan.speed_share > 0.0 && plan.speed_share <= 1.0) {  // what flees does not stop
     plan.seen_ahead_m = seen_along(water, choice.way, {});
     plan.speed_share = std::min(plan.speed_share, share_by_sight(plan.seen_ahead_m));
   }

@@ -8,7 +8,6 @@
 #include "high_level/guidance/areas.h"
 
 namespace lodesman {
-
 namespace {
 
 constexpr double kStay_m = 1.5;  // a place to wait at is kept within this
@@ -299,10 +298,7 @@ void PlannerTask::replan_in_world(Time now) noexcept {
   }
   const Tracks& water = with_areas(tracks->value, state->value, now);
   if (const auto* path = sonar_path_.latest(); path != nullptr) {
-    const auto* seen = coverage_.latest();
-    publish(replanner_.answer(now, path->value, water, seen != nullptr ? &seen->value : nullptr,
-                              state->value),
-            now);
+    publish(replanner_.answer(now, path->value, water, seen_water(), state->value), now);
   }
   const Destination there{mission_.goal(), mission_.holding(), leg()};
   const auto* request = replanner_.request(now, water, tracks->stamp, state->value, there);

@@ -50,6 +50,11 @@ class PlannerTask final : public Task {
   // What is known of the water: the tracks, and the mission's areas as walls.
   [[nodiscard]] const Tracks& with_areas(const Tracks& tracks, const VehicleState& own,
                                          Time now) noexcept;
+  // What was seen of it; null: all of it is known.
+  [[nodiscard]] const Coverage* seen_water() noexcept {
+    const auto* newest = coverage_.latest();
+    return newest != nullptr ? &newest->value : nullptr;
+  }
   void replan(Time now) noexcept;
   void replan_in_view(Time now) noexcept;
   void replan_in_world(Time now) noexcept;

@@ -204,9 +204,8 @@ struct Plan {
   double speed_share = 1.0;  // [-] [-100, 100] of the mission's SurgeRef; more than 1: to get away
   bool stay_at_end = false;  // the last waypoint is a place to wait at
   bool narrow = false;       // zones had to give what they may
-  // [m] of the way ahead that was seen, where that is too little for the mission's speed; else
-  // infinity.
-  double seen_ahead_m = std::numeric_limits<double>::infinity();
+  // Of the way ahead, where that is too little for the mission's speed; else infinity.
+  double seen_ahead_m = std::numeric_limits<double>::infinity();  // [m]
   bool changed = false;              // another side or another manoeuvre than in the plan before
   std::uint32_t cause = 0;           // [-] Track::id that the rung is about; 0: none
   double clearance_m = 0.0;          // [m] least one foreseen, of the hull; infinity: no obstacle

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deploy/operator/report/numbers.h"
 #include "deploy/operator/report/plan_story.h"
 #include "deploy/operator/run/way_left.h"
 #include "mid_level/base/frames.h"
@@ -18,10 +19,6 @@ constexpr std::size_t kMaxNotices = 1000;
 [[nodiscard]] bool is_stale(HelmReason reason) noexcept {
   return reason == HelmReason::kStaleState || reason == HelmReason::kStaleAttitude ||
          reason == HelmReason::kStaleMission;
-}
-
-[[nodiscard]] std::optional<double> if_finite(double value) noexcept {
-  return std::isfinite(value) ? std::optional{value} : std::nullopt;
 }
 
 [[nodiscard]] std::array<double, 2> metres(const WorldPoint& p) noexcept {

@@ -12,89 +12,15 @@
 #include "mid_level/messages/sane.h"
 #include "tests/support/allocations.h"
 #include "tests/support/catch.h"
+#include "tests/unit/tracking/tracker_bench.h"
 
 namespace lodesman {
 namespace {
 
-constexpr double kTrackerPing_s = 0.1;
-
-struct Disc {
-  double x_m;
-  double y_m;
-  double radius_m;
-};
-
-// A sonar with a tracker behind it, and what it would hear of discs: the near side of each.
-struct Bench {
-  std::unique_ptr<SonarPing> ping = std::make_unique<SonarPing>();
-  std::unique_ptr<SonarObstacles> seen = std::make_unique<SonarObstacles>();
-  std::unique_ptr<Tracks> tracks = std::make_unique<Tracks>();
-  std::unique_ptr<Tracker> tracker = std::make_unique<Tracker>(1.0);
-  VehiclePose pose{};
-  double t_s = 10.0;
-
-  Bench() {
-    ping->range_m = 30.0;
-    ping->make_image(120, 500, 2.0 * std::numbers::pi / 3.0);
-  }
-
-  void hear(const std::vector<Disc>& discs, const Obstacle* other = nullptr) {
-    t_s += kTrackerPing_s;
-    ping->number += 1;
-    ping->captured = Time{from_seconds(t_s)};
-    seen->captured = ping->captured;
-    seen->range_m = ping->range_m;
-    seen->count = 0;
-    for (const Disc& disc : discs) {
-      const Eigen::Vector2d at = pose.to_vehicle({{disc.x_m, disc.y_m}}).xy_m;
-      const double to_its_end_rad =
-          std::abs(std::atan2(at.x(), at.y())) - std::asin(disc.radius_m / at.norm());
-      if (to_its_end_rad < ping->sector_rad / 2.0 - ping->beam_step_rad && at.norm() < 30.0) {
-        Obstacle& o = seen->obstacles[seen->count++];
-        o = near_side_of(at, disc.radius_m);
-      }
-    }
-    if (other != nullptr) {
-      seen->obstacles[seen->count++] = *other;
-    }
-    tracker->see(*ping, *seen, pose, *tracks);
-  }
-
-  // Of a disc, what of it lies in the fan.
-  [[nodiscard]] Obstacle near_side_of(const Eigen::Vector2d& at, double radius_m) const {
-    const double bearing_rad = std::atan2(at.x(), at.y());
-    const double half_rad = std::asin(radius_m / at.norm());
-    const double end_rad = ping->sector_rad / 2.0;
-    const double port_rad = std::max(bearing_rad - half_rad, -end_rad);
-    const double starboard_rad = std::min(bearing_rad + half_rad, end_rad);
-    const double middle_rad = 0.5 * (port_rad + starboard_rad);
-    const double range_m = at.norm() - 0.8 * radius_m;
-    Obstacle o;
-    o.centre_x_m = range_m * std::sin(middle_rad);
-    o.centre_y_m = range_m * std::cos(middle_rad);
-    o.semi_axis_first_m = 0.2 * radius_m;
-    o.semi_axis_second_m = range_m * std::sin(0.5 * (starboard_rad - port_rad));
-    o.angle_rad = middle_rad;
-    return o;
-  }
-
-  [[nodiscard]] const Track* track_at(double x_m, double y_m) const {
-    const Track* best = nullptr;
-    double best_m = 1.0;
-    for (std::uint32_t i = 0; i < tracks->count; ++i) {
-      const double off_m = edge_distance_m(tracks->tracks[i].shape, {{x_m, y_m}});
-      if (off_m < best_m) {
-        best_m = off_m;
-        best = &tracks->tracks[i];
-      }
-    }
-    return best;
-  }
-};
-
-[[nodiscard]] double speed_of(const Track& track) {
-  return std::hypot(track.velocity_x_m_s, track.velocity_y_m_s);
-}
+using Bench = testing::TrackerBench;
+using testing::Disc;
+using testing::kTrackerPing_s;
+using testing::speed_of;
 
 }  // namespace
 
@@ -367,67 +293,6 @@ TEST_CASE("tracker: any obstacles give sane tracks, and nothing is allocated",
     REQUIRE(sane(*bench.tracks));
     CHECK(bench.tracks->dropped == 0);
   }
-}
-
-TEST_CASE("tracker: what the end of the fan cuts off is not taken for motion",
-          "[low_level][tracking]") {
-  for (const double way : {-1.0, 1.0}) {
-    Bench bench;
-    const Disc disc{0.0, 8.0, 1.0};
-    for (int i = 0; i < 30; ++i) {
-      bench.hear({{disc.x_m, disc.y_m + 0.11 * (3.0 - kTrackerPing_s * i), disc.radius_m}});
-    }
-    // The boat turns away until it is out of sight.
-    for (int i = 0; i < 80; ++i) {
-      bench.pose.heading = Heading::clockwise_from_y_rad(way * i * to_rad(1.0));
-      bench.hear({{disc.x_m, disc.y_m - 0.011 * i, disc.radius_m}});
-    }
-    const double y_m = disc.y_m - 0.011 * 79;
-    const Track* track = bench.track_at(disc.x_m, y_m);
-    REQUIRE(track != nullptr);
-    CHECK(std::abs(track->velocity_x_m_s) < 0.06);
-    CHECK(std::abs(track->velocity_y_m_s + 0.11) < 0.06);
-    CHECK(std::abs(track->shape.centre_x_m - disc.x_m) < 0.4);
-  }
-}
-
-TEST_CASE("tracker: what comes in from the end of the fan was there before",
-          "[low_level][tracking]") {
-  for (const double way : {-1.0, 1.0}) {
-    Bench bench;
-    const Disc disc{0.0, 8.0, 1.0};
-    for (int i = 0; i < 60; ++i) {
-      bench.pose.heading = Heading::clockwise_from_y_rad(way * to_rad(70.0 - 0.5 * i));
-      bench.hear({disc});
-    }
-    const Track* track = bench.track_at(disc.x_m, disc.y_m);
-    REQUIRE(track != nullptr);
-    CHECK(speed_of(*track) < 0.12);
-  }
-}
-
-TEST_CASE("tracker: what comes out from behind something nearer is not taken for motion",
-          "[low_level][tracking]") {
-  Bench bench;
-  // A stone at 6 m hides half of one at 12 m, and less of it as the boat goes sideways.
-  for (int i = 0; i < 60; ++i) {
-    bench.pose.p_WV.xy_m = {0.02 * i, 0.0};
-    Obstacle far = bench.near_side_of(bench.pose.to_vehicle({{1.2, 12.0}}).xy_m, 1.0);
-    const Eigen::Vector2d near = bench.pose.to_vehicle({{0.0, 6.0}}).xy_m;
-    const double hidden_rad = std::atan2(near.x(), near.y()) + std::asin(0.7 / near.norm());
-    const double range_m = std::hypot(far.centre_x_m, far.centre_y_m);
-    const double end_rad = far.angle_rad + std::asin(far.semi_axis_second_m / range_m);
-    const double from_rad =
-        std::max(far.angle_rad - std::asin(far.semi_axis_second_m / range_m), hidden_rad);
-    far.angle_rad = 0.5 * (from_rad + end_rad);
-    far.centre_x_m = range_m * std::sin(far.angle_rad);
-    far.centre_y_m = range_m * std::cos(far.angle_rad);
-    far.semi_axis_second_m = range_m * std::sin(0.5 * (end_rad - from_rad));
-    bench.hear({{0.0, 6.0, 0.7}}, &far);
-  }
-  const Track* track = bench.track_at(1.2, 12.0);
-  REQUIRE(track != nullptr);
-  CHECK(speed_of(*track) < 0.1);
 }
 
 }  // namespace lodesman
