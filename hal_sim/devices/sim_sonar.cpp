@@ -9,7 +9,8 @@ SimSonar::SimSonar(const Scenario& scenario, SimLink& link)
     : feed_{link, link.sonar_due, from_seconds(1.0 / scenario.sonar.ping_hz),
             FaultSchedule{scenario.faults, FaultDevice::kSonar}},
       settings_{scenario.sonar},
-      scene_{scenario.obstacles} {}
+      scene_{scenario.obstacles},
+      ping_fault_{scenario.seed} {}
 
 ReadStatus SimSonar::poll(Time now, SonarPing& out) noexcept {
   const SampleFeed::Due due = feed_.poll(now);
@@ -18,6 +19,7 @@ ReadStatus SimSonar::poll(Time now, SonarPing& out) noexcept {
   }
   if (due.status == ReadStatus::kFresh) {
     listen(due.sample, out);
+    ping_fault_.alter(due.fault, due.sample.thrust_load, image_of(out));
   }
   return due.status;
 }

@@ -7,6 +7,7 @@
 #include "hal_sim/devices/sample_feed.h"
 #include "hal_sim/scenario/scenario.h"
 #include "hal_sim/sonar/heard_scene.h"
+#include "hal_sim/sonar/ping_fault.h"
 
 namespace lodesman {
 
@@ -23,6 +24,7 @@ class SimSonar final : public ImagingSonar {
   SampleFeed feed_;
   ScenarioSonar settings_;
   HeardScene scene_;
+  PingFault ping_fault_;
   std::uint64_t pings_ = 0;
 };
 
