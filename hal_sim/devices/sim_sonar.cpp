@@ -25,7 +25,8 @@ SimSonar::SimSonar(const Scenario& scenario, SimLink& link)
       settings_{scenario.sonar},
       scene_{scenario.obstacles},
       detections_{scenario.obstacles.size(), scenario.sonar.detections, scenario.seed},
-      water_{water_of(scenario.sonar, scenario.seed)} {}
+      water_{water_of(scenario.sonar, scenario.seed)},
+      ping_fault_{scenario.seed} {}
 
 ReadStatus SimSonar::poll(Time now, SonarPing& out) noexcept {
   const SampleFeed::Due due = feed_.poll(now);
@@ -40,6 +41,7 @@ ReadStatus SimSonar::poll(Time now, SonarPing& out) noexcept {
       detect(due.sample, out);
     } else {
       listen(due.sample, out);
+      ping_fault_.alter(due.fault, due.sample.thrust_load, image_of(out));
     }
   }
   return due.status;

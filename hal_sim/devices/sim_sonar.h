@@ -13,6 +13,7 @@
 #include "hal_sim/sonar/detections.h"
 #include "hal_sim/sonar/heard_scene.h"
 #include "hal_sim/sonar/noisy_water.h"
+#include "hal_sim/sonar/ping_fault.h"
 
 namespace lodesman {
 
@@ -32,6 +33,7 @@ class SimSonar final : public ImagingSonar {
   HeardScene scene_;
   Detections detections_;
   std::optional<NoisyWater> water_;  // where there is noise
+  PingFault ping_fault_;
   std::uint64_t pings_ = 0;
 };
 

@@ -55,6 +55,9 @@ void BoatStatus::add_to(ordered_json& reply, Time now) {
       reply["not_ready"] = readiness_.reasons(now);
     }
   }
+  if (std::vector<std::string> warnings = readiness_.warnings(); !warnings.empty()) {
+    reply["warnings"] = std::move(warnings);
+  }
   add_thrust(reply, now);
   add_guard(reply, now);
   add_place(reply, now);

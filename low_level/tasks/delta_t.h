@@ -13,6 +13,7 @@
 #include "drivers/hal/devices.h"
 #include "low_level/sonar/detector.h"
 #include "low_level/sonar/mounting.h"
+#include "low_level/sonar/ping_watch.h"
 #include "low_level/sonar/protection.h"
 #include "low_level/sonar/track_oracle.h"
 #include "low_level/tasks/device_report.h"
@@ -42,8 +43,13 @@ class DeltaTTask final : public Task {
   [[nodiscard]] std::span<ChannelLook<>* const> inputs() noexcept override { return inputs_; }
 
  private:
-  // Whether there is a new ping that can be believed.
+  // Whether there is a new ping that can be believed and tells of the water.
   [[nodiscard]] bool take_ping(Time now) noexcept;
+  // Whether a ping that was published tells of the water, as far as that matters: a known scene
+  // needs no echoes.
+  [[nodiscard]] bool tells_of_water() noexcept;
+  // What its pings show or its driver says.
+  [[nodiscard]] DeviceFault ailment() noexcept;
   // Whether the estimate of the ping's own time is about to come.
   [[nodiscard]] bool awaits_estimate(Time now) noexcept;
   void publish_what_it_shows(Time now) noexcept;
@@ -58,6 +64,7 @@ class DeltaTTask final : public Task {
 
   ImagingSonar& sonar_;
   DeltaTOptions options_;
+  PingWatch watch_;
   Detector detector_;
   Reader<VehicleState> vehicle_state_;
   Reader<VehicleState> every_state_;  // the same, one after the other

@@ -44,7 +44,8 @@ double FanView::beam_at(double x_m, double y_m) const noexcept {
   return off_rad / beam_step_rad_ + 0.5 * (beams_ - 1.0);
 }
 
-void FanView::set(const SonarPing& ping, const SonarObstacles& seen, double nearest_m) noexcept {
+void FanView::set(const SonarPing& ping, const SonarObstacles& seen, double nearest_m,
+                  std::span<const std::uint8_t> blind) noexcept {
   beams_ = std::min<std::uint32_t>(ping.beams, kMaxBeams);
   first_bearing_rad_ = ping.first_bearing_rad;
   beam_step_rad_ = ping.beam_step_rad;
@@ -56,6 +57,9 @@ void FanView::set(const SonarPing& ping, const SonarObstacles& seen, double near
   }
   limit_to_listed(seen);
   limit_to_returns(ping);
+  for (std::size_t beam = 0; beam < std::min<std::size_t>(blind.size(), beams_); ++beam) {
+    clear_m_[beam] = blind[beam] != 0 ? 0.0F : clear_m_[beam];
+  }
 }
 
 // Beyond the farthest of a list that was too short nothing is known.

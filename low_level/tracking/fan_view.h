@@ -23,8 +23,9 @@ struct CutEnds {
 class FanView {
  public:
   // The ping's beams, and its obstacles in the head's frame. Nothing is heard nearer than
-  // `nearest_m`.
-  void set(const SonarPing& ping, const SonarObstacles& seen, double nearest_m) noexcept;
+  // `nearest_m`. Beams for which `blind` is not 0 saw nothing at all; empty: none is.
+  void set(const SonarPing& ping, const SonarObstacles& seen, double nearest_m,
+           std::span<const std::uint8_t> blind = {}) noexcept;
 
   [[nodiscard]] std::span<const float> clear_m() const noexcept {
     return std::span{clear_m_}.first(beams_);
@@ -40,8 +41,8 @@ class FanView {
   [[nodiscard]] double beam_step_rad() const noexcept { return beam_step_rad_; }
   [[nodiscard]] double nearest_m() const noexcept { return nearest_m_; }
   [[nodiscard]] double farthest_m() const noexcept { return farthest_m_; }
-  // [-] [0, 1] of an ellipse [head's frame] that this ping could show: 0 outside of the fan, behind
-  // what is nearer, or at the fan's edge.
+  // [-] [0, 1] of an ellipse [head's frame] that this ping could show: 0 outside of the fan, in
+  // blind beams, behind what is nearer, or at the fan's edge.
   [[nodiscard]] double visible_share(const Obstacle& ellipse) const noexcept;
 
   // Of an obstacle of this ping [head's frame].

@@ -105,14 +105,14 @@ void Tracker::resume(const Tracks& last, const VehiclePose& head, Time now) noex
 }
 
 void Tracker::see(const SonarPing& ping, const SonarObstacles& seen, const VehiclePose& head,
-                  Tracks& out) noexcept {
+                  Tracks& out, std::span<const std::uint8_t> blind) noexcept {
   now_s_ = to_seconds(ping.captured.time_since_epoch());
   const double dt_s = last_s_ < 0.0 ? 0.0 : std::max(0.0, now_s_ - last_s_);
   last_s_ = now_s_;
   if (dt_s > kLongestSilence_s) {
     count_ = 0;  // what moved may be anywhere
   }
-  fan_.set(ping, seen, heard_from_m(nearest_m_, ping.range_m));
+  fan_.set(ping, seen, heard_from_m(nearest_m_, ping.range_m), blind);
   place(ping, seen, head);
   for (Followed& one : std::span{followed_}.first(count_)) {
     for (double left_s = dt_s; left_s > 0.0; left_s -= kLongestGap_s) {

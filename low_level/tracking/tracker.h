@@ -26,9 +26,10 @@ class Tracker {
   explicit Tracker(double nearest_m);
 
   // What one ping shows. `seen` is in the head's frame, whose place and direction `head` is
-  // [odometry]. `out` is in the odometry frame: what moves first, then what rests.
-  void see(const SonarPing& ping, const SonarObstacles& seen, const VehiclePose& head,
-           Tracks& out) noexcept;
+  // [odometry]. `out` is in the odometry frame: what moves first, then what rests. Beams for which
+  // `blind` is not 0 show nothing but what was found in them; empty: none is.
+  void see(const SonarPing& ping, const SonarObstacles& seen, const VehiclePose& head, Tracks& out,
+           std::span<const std::uint8_t> blind = {}) noexcept;
 
   // What one that was here before knew last [odometry], before the first ping. What no tracker
   // would have written is passed over.

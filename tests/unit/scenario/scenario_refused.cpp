@@ -193,7 +193,8 @@ TEST_CASE("scenario: environment, position, sonar and faults are refused with on
        "s.toml:48: fault[0].kind: must be one of: " + kBoxFaults},
       {"device = \"thruster\"\nkind = \"disconnect\"", "device = \"sonar\"\nkind = \"flip\"",
        "s.toml:48: fault[0].kind: must be one of: stall, corrupt, disconnect, hang, power, "
-       "reorder, foreign, repeat, jump, range, output, average, centimetres, drop, duplicate, cut"},
+       "reorder, foreign, repeat, jump, range, output, average, centimetres, saturated, blinded, "
+       "weed, drop, duplicate, cut, frozen, interference"},
       {"kind = \"disconnect\"", "kind = 3", "s.toml:48: fault[0].kind: must be a text"},
       {"duration_s = 5.0", "duration_s = 5.0\nrate = 0.1", "s.toml:51: fault[0].rate: unknown key"},
       {"duration_s = 5.0", "duration_s = 5.0\nvalue = 0.1",

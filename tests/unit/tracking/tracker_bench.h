@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -29,6 +30,7 @@ struct TrackerBench {
   std::unique_ptr<Tracker> tracker = std::make_unique<Tracker>(1.0);
   VehiclePose pose{};
   double t_s = 10.0;
+  std::vector<std::uint8_t> blind;  // one a beam, or none
 
   TrackerBench() {
     ping->range_m = 30.0;
@@ -54,7 +56,15 @@ struct TrackerBench {
     if (other != nullptr) {
       seen->obstacles[seen->count++] = *other;
     }
-    tracker->see(*ping, *seen, pose, *tracks);
+    tracker->see(*ping, *seen, pose, *tracks, blind);
+  }
+
+  // The beams round that bearing.
+  void blind_beams(double bearing_rad, double half_width_rad) {
+    blind.assign(ping->beams, 0);
+    for (std::uint32_t beam = 0; beam < ping->beams; ++beam) {
+      blind[beam] = std::abs(ping->bearing_rad(beam) - bearing_rad) <= half_width_rad ? 1 : 0;
+    }
   }
 
   // Of a disc, what of it lies in the fan.

@@ -83,6 +83,53 @@ TEST_CASE("tracker: what is gone from where it looks is gone", "[low_level][trac
   CHECK(bench.track_at(5.0, 12.0) != nullptr);
 }
 
+TEST_CASE("tracker: in blind beams what was seen is remembered, and no water is free",
+          "[low_level][tracking]") {
+  Bench bench;
+  for (int i = 0; i < 40; ++i) {
+    bench.hear({{0.0, 8.0, 0.5}, {5.0, 12.0, 0.5}});
+  }
+  bench.blind_beams(0.0, 0.2);
+  for (int i = 0; i < 100; ++i) {
+    bench.hear({});
+  }
+  CHECK(bench.track_at(0.0, 8.0) != nullptr);
+  CHECK(bench.track_at(5.0, 12.0) == nullptr);  // where it hears, what is gone is gone
+  Bench fresh;
+  fresh.blind_beams(0.0, 0.2);
+  for (int i = 0; i < 20; ++i) {
+    fresh.hear({});
+  }
+  CHECK(fresh.tracker->water().state({0.0, 8.0}) == WaterState::kUnknown);
+  CHECK(fresh.tracker->water().state({5.0, 8.0}) == WaterState::kFree);
+}
+
+TEST_CASE("tracker: one that sails into blind beams goes on, with more doubt",
+          "[low_level][tracking]") {
+  Bench bench;
+  bench.blind_beams(0.0, 0.15);
+  double doubt_before_m2 = 0.0;
+  for (int i = 0; i < 70; ++i) {
+    const double x_m = -5.0 + 0.07 * i;
+    const bool is_heard = std::abs(std::atan2(x_m, 10.0)) > 0.15;
+    bench.hear(is_heard ? std::vector<Disc>{{x_m, 10.0, 0.5}} : std::vector<Disc>{});
+    if (i == 40) {
+      doubt_before_m2 = bench.track_at(x_m, 10.0)->place_xx_m2;
+    }
+  }
+  const Track* track = bench.track_at(-0.17, 10.0);
+  REQUIRE(track != nullptr);
+  CHECK(track->velocity_x_m_s == Approx(0.7).margin(0.2));
+  CHECK(track->place_xx_m2 > 2.0 * doubt_before_m2);
+}
+
+TEST_CASE("tracker: what is found in blind beams is there all the same", "[low_level][tracking]") {
+  Bench bench;
+  bench.blind_beams(0.0, 0.3);
+  bench.hear({{0.0, 3.0, 0.5}});
+  CHECK(bench.track_at(0.0, 3.0) != nullptr);
+}
+
 TEST_CASE("tracker: one that passes behind a stone is the same one after",
           "[low_level][tracking]") {
   Bench bench;
