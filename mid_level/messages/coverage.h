@@ -29,10 +29,10 @@ struct Coverage {
   std::uint64_t frame = 0;  // [-] number of the ping
   Time captured{};          // [ns] when it was taken
   double west_x_m = 0.0;    // [m] [world] of the square's south-western corner
-  double south_y_m = 0.0;
-  // [-] four cells a byte, the lowest two bits first: a WaterState each (3: unknown too). Row after
+  double south_y_m = 0.0;   // [m] [world]
+  // Four cells a byte, the lowest two bits first: a WaterState each (3: unknown too). Row after
   // row from the south, in a row from the west.
-  std::array<std::uint8_t, kSide * kSide / 4> cells{};
+  std::array<std::uint8_t, kSide * kSide / 4> cells{};  // [-]
 
   [[nodiscard]] Time measured_at() const noexcept { return captured; }
 
