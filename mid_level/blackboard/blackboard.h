@@ -118,6 +118,29 @@ inline constexpr std::array<DeviceInfo, kDeviceCount> kDeviceInfo{{
     {"thruster_device", "thruster"},
 }};
 
+// Those that there are several of: a device's, a task's.
+template <class Board, class Visit>
+void for_each_numbered_channel(Board& board, Visit& visit) {
+  for (std::size_t i = 0; i < kDeviceCount; ++i) {
+    const DeviceInfo& info = kDeviceInfo[i];
+    visit(ChannelInfo{info.channel, Role::kLow, info.task, max_age::kDeviceHealth},
+          board.device_health[i]);
+  }
+  for (std::size_t i = 0; i < kTaskCount; ++i) {
+    const auto task = static_cast<TaskId>(i);
+    const bool high =
+        task == TaskId::kEstimator || task == TaskId::kPlanner || task == TaskId::kController;
+    visit(ChannelInfo{to_string(task), high ? Role::kHigh : Role::kLow, to_string(task),
+                      max_age::kNoLimit},
+          board.task_health[i]);
+  }
+  for (std::size_t i = 0; i < kReplayedCount; ++i) {
+    const StepInputsInfo& info = kStepInputsInfo[i];
+    visit(ChannelInfo{info.channel, info.writer, to_string(info.task), max_age::kNoLimit},
+          board.step_inputs[i]);
+  }
+}
+
 // Calls visit(ChannelInfo, channel) for every channel, in the order of the struct.
 template <class Board, class Visit>
 void for_each_channel(Board& board, Visit visit) {
@@ -163,24 +186,7 @@ void for_each_channel(Board& board, Visit visit) {
   visit(ChannelInfo{"box_proof", Role::kLow, "thruster", max_age::kNoLimit}, board.box_proof);
   visit(ChannelInfo{"battery_status", Role::kLow, "thruster", max_age::kBatteryStatus},
         board.battery_status);
-  for (std::size_t i = 0; i < kDeviceCount; ++i) {
-    const DeviceInfo& info = kDeviceInfo[i];
-    visit(ChannelInfo{info.channel, Role::kLow, info.task, max_age::kDeviceHealth},
-          board.device_health[i]);
-  }
-  for (std::size_t i = 0; i < kTaskCount; ++i) {
-    const auto task = static_cast<TaskId>(i);
-    const bool high =
-        task == TaskId::kEstimator || task == TaskId::kPlanner || task == TaskId::kController;
-    visit(ChannelInfo{to_string(task), high ? Role::kHigh : Role::kLow, to_string(task),
-                      max_age::kNoLimit},
-          board.task_health[i]);
-  }
-  for (std::size_t i = 0; i < kReplayedCount; ++i) {
-    const StepInputsInfo& info = kStepInputsInfo[i];
-    visit(ChannelInfo{info.channel, info.writer, to_string(info.task), max_age::kNoLimit},
-          board.step_inputs[i]);
-  }
+  for_each_numbered_channel(board, visit);
 }
 
 // The writer of one of the board's own channels, which rings those that the channel wakes. Throws
