@@ -92,6 +92,11 @@ void overlay(const std::vector<std::string>& sets, TomlDocument& configuration) 
           table.text("thrusters", 256)};
 }
 
+[[nodiscard]] std::optional<SonarNoise> read_noise(const TomlTable& table) {
+  const std::size_t word = table.choice("noise", {"none", "tank", "sea", "scenario"});
+  return word < 3 ? std::optional{static_cast<SonarNoise>(word)} : std::nullopt;
+}
+
 [[nodiscard]] SimulationSettings read_simulation(const TomlTable& table) {
   SimulationSettings settings;
   settings.scenario = table.text("scenario", 4096, 0);
@@ -102,6 +107,7 @@ void overlay(const std::vector<std::string>& sets, TomlDocument& configuration) 
   settings.sonar_view_period = table.duration("sonar_view_period_s", Range::between(0.05, 60.0));
   settings.scene = static_cast<SimulatedScene>(
       table.choice("scene", {"scenario", "obstacles", "beams", "detections"}));
+  settings.noise = read_noise(table);
   settings.detections = read_detection_errors(table.table("detections"));
   if (settings.detections.any() && settings.scene != SimulatedScene::kDetections) {
     table.refuse("detections", "is of scene = \"detections\" alone");

@@ -13,6 +13,7 @@
 #include "deploy/boat/common_options.h"
 #include "drivers/hal/thrust_shape.h"
 #include "hal_sim/scenario/detection_errors.h"
+#include "hal_sim/scenario/scenario.h"
 #include "high_level/tasks/high_level.h"
 #include "low_level/tasks/low_level.h"
 #include "mid_level/base/geodesy.h"
@@ -64,7 +65,8 @@ struct SimulationSettings {
   Duration lockstep_jitter{};
   Duration sonar_view_period{};
   SimulatedScene scene = SimulatedScene::kScenario;
-  DetectionErrors detections;  // of kDetections alone
+  std::optional<SonarNoise> noise;  // of echoes; none: as the scenario says
+  DetectionErrors detections;       // of kDetections alone
 };
 
 struct BoatConfig {

@@ -22,19 +22,15 @@ namespace {
 ScenarioSonar sailed_sonar(const BoatConfig& config, const Scenario& scenario) {
   ScenarioSonar sonar = scenario.sonar;
   switch (config.simulation.scene) {
-    case SimulatedScene::kScenario:
-      break;
-    case SimulatedScene::kObstacles:
-      sonar.scene = SonarScene::kObstacles;
-      break;
-    case SimulatedScene::kBeams:
-      sonar.scene = SonarScene::kBeams;
-      break;
+    case SimulatedScene::kScenario: break;
+    case SimulatedScene::kObstacles: sonar.scene = SonarScene::kObstacles; break;
+    case SimulatedScene::kBeams: sonar.scene = SonarScene::kBeams; break;
     case SimulatedScene::kDetections:
       sonar.scene = SonarScene::kDetections;
       sonar.detections = config.simulation.detections;
       break;
   }
+  sonar.noise = config.simulation.noise.value_or(sonar.noise);
   return sonar;
 }
 

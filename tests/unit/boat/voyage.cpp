@@ -76,6 +76,22 @@ TEST_CASE("voyage: without a scenario there is neither a mission nor a known sce
   CHECK(simulated(config_with({})).mission.value().goal_count == 1);
 }
 
+TEST_CASE("voyage: the water is the scenario's, or what the configuration puts in its place",
+          "[boat]") {
+  const auto noise = [](const std::vector<std::string>& sets, SonarNoise own) {
+    const BoatConfig config = config_with(sets);
+    Scenario scenario = load_named_scenario("paper-static", config.speeds);
+    scenario.sonar.noise = own;
+    return sailed_sonar(config, scenario).noise;
+  };
+  for (const SonarNoise own : {SonarNoise::kNone, SonarNoise::kTank, SonarNoise::kSea}) {
+    CHECK(noise({}, own) == own);
+    CHECK(noise({"simulation.noise=none"}, own) == SonarNoise::kNone);
+    CHECK(noise({"simulation.noise=tank"}, own) == SonarNoise::kTank);
+    CHECK(noise({"simulation.noise=sea"}, own) == SonarNoise::kSea);
+  }
+}
+
 TEST_CASE("voyage: the scene is the scenario's, or what the configuration puts in its place",
           "[boat]") {
   using enum SonarScene;
