@@ -49,6 +49,7 @@ Sees underwater obstacles with a forward-looking sonar and steers round
 them, in real time: two services for the boat's computer, and the
 operator's command.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "systemd | systemd-standalone-sysusers, passwd")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "libjs-dygraphs")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "gpsd, lodesman-bench, lodesman-doc")
 foreach(file preinst prerm postinst postrm conffiles)
   list(APPEND CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${made}/control/${file})

@@ -72,7 +72,7 @@ if $reproduce; then
   exit
 fi
 quietly cmake --preset release
-quietly cmake --build --preset release --target lodesman lodesman-low lodesman-high lodesman-recorder \
+quietly cmake --build --preset release --target lodesman lodesman-low lodesman-high lodesman-recorder lodesman-console \
   lodesman-bench lodesman-devices
 pack
 say "packages: $(cd $packages && echo *.deb *.ddeb)"

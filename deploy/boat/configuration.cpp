@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "deploy/boat/console_settings.h"
 #include "deploy/boat/level_options.h"
 #include "deploy/boat/recorder_settings.h"
 #include "high_level/mission/network.h"
@@ -140,6 +141,7 @@ void overlay(const std::vector<std::string>& sets, TomlDocument& configuration) 
   config.command_socket = read_command_socket(root.table("command_socket"));
   config.simulation = read_simulation(root.table("simulation"));
   static_cast<void>(read_recorder(root.table("recorder")));
+  static_cast<void>(read_console(root.table("console")));
   config.origin = read_origin(root.table("origin"));
   config.position = read_position_source(root.table("estimator"));
   config.mission = read_mission_defaults(root.table("mission"));

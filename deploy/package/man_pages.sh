@@ -25,6 +25,7 @@ page "$runtime" lodesman lodesman
 page "$runtime" lodesman-low lodesman-low
 page "$runtime" lodesman-high lodesman-high
 page "$runtime" lodesman-recorder lodesman-recorder
+page "$runtime" lodesman-console lodesman-console
 page "$bench" lodesman-bench lodesman-bench
 page "$bench" lodesman-devices lodesman-devices
 for word in $("$programs/lodesman" --help | awk '/^Subcommands:/ { on = 1; next } on && /^  [a-z]/ { print $1 }'); do

@@ -3,6 +3,7 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -259,6 +260,25 @@ std::string TomlTable::text(std::string_view key, std::size_t max_length,
                     " characters");
   }
   return value->get();
+}
+
+std::vector<std::string> TomlTable::texts(std::string_view key, std::size_t max_length,
+                                          std::size_t max_count) const {
+  const auto* array = static_cast<const toml::node*>(require(key))->as_array();
+  const auto is_text = [&](const toml::node& node) {
+    const auto* value = node.as_string();
+    return value != nullptr && !value->get().empty() && value->get().size() <= max_length;
+  };
+  if (array == nullptr || array->size() > max_count ||
+      !std::all_of(array->begin(), array->end(), is_text)) {
+    refuse(key, "must be a list of up to " + std::to_string(max_count) + " texts of 1 to " +
+                    std::to_string(max_length) + " characters");
+  }
+  std::vector<std::string> texts;
+  for (const auto& node : *array) {
+    texts.push_back(node.as_string()->get());
+  }
+  return texts;
 }
 
 std::size_t TomlTable::choice(std::string_view key,

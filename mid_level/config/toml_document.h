@@ -87,6 +87,9 @@ class TomlTable {
   // Of at least one character, unless `min_length` is 0.
   [[nodiscard]] std::string text(std::string_view key, std::size_t max_length,
                                  std::size_t min_length = 1) const;
+  // A list of up to `max_count` texts, each of at least one character.
+  [[nodiscard]] std::vector<std::string> texts(std::string_view key, std::size_t max_length,
+                                               std::size_t max_count) const;
   // One of a few words; gives its index in `words`.
   [[nodiscard]] std::size_t choice(std::string_view key,
                                    std::initializer_list<std::string_view> words) const;

@@ -52,7 +52,7 @@ void Recording::add_channels() {
   const std::uint16_t schema =
       writer_.add(McapSchema{0, "lodesman.gap", "jsonschema", kGapsSchema});
   gaps_id_ = writer_.add(McapChannel{0, schema, kGapsTopic, "json", {}});
-  viewers_ = std::make_unique<ViewerChannels>(writer_);
+  viewers_ = std::make_unique<ViewerChannels>(viewer_sink_);
   waiting_.resize(names_.size());
   unsynced_.resize(names_.size());
 }

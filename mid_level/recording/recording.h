@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mid_level/recording/board_tap.h"
+#include "mid_level/recording/mcap_viewer_sink.h"
 #include "mid_level/recording/mcap_writer.h"
 #include "mid_level/recording/viewer_channels.h"
 
@@ -72,6 +73,7 @@ class Recording {
 
   std::unique_ptr<RecordFile> file_;
   McapWriter writer_;
+  McapViewerSink viewer_sink_{writer_};
   std::unique_ptr<ViewerChannels> viewers_;
   std::vector<std::string> names_;
   std::vector<std::uint16_t> raw_ids_;

@@ -42,13 +42,14 @@ constexpr Duration kPeriod<SonarPing> = std::chrono::milliseconds{500};
 
 class ViewerChannels::Impl {
  public:
-  explicit Impl(McapWriter& writer) : writer_{writer} {
-    add(transforms_, "/tf", viewer::frame_transforms());
-    add(scene_, "/scene", viewer::scene_update());
-    add(waypoints_, "/waypoints", viewer::poses_in_frame());
-    add(position_, "/position", viewer::location_fix());
-    add(sonar_, "/sonar", viewer::compressed_image());
-    add(log_, "/log", viewer::log_entry());
+  explicit Impl(ViewerSink& sink)
+      : sink_{sink},
+        transforms_{sink.add_topic("/tf", viewer::frame_transforms())},
+        scene_{sink.add_topic("/scene", viewer::scene_update())},
+        waypoints_{sink.add_topic("/waypoints", viewer::poses_in_frame())},
+        position_{sink.add_topic("/position", viewer::location_fix())},
+        sonar_{sink.add_topic("/sonar", viewer::compressed_image())},
+        log_{sink.add_topic("/log", viewer::log_entry())} {
     const auto board = std::make_unique<Blackboard>();
     for_each_channel(*board, [this]<class C>(const ChannelInfo& info, const C& /*channel*/) {
       takers_.push_back({info.name, &Impl::take_as<typename C::Value>, {}});
@@ -60,27 +61,28 @@ class ViewerChannels::Impl {
     (this->*taker.take)(taker, publication.stamp, raw);
   }
 
+  void begin_anew() {
+    for (Taker& taker : takers_) {
+      taker.due = {};
+    }
+    said_.clear();
+    goal_.clear();
+    hull_shown_ = false;
+  }
+
  private:
-  struct Topic {
-    std::uint16_t id = 0;
-    std::uint32_t count = 0;
-  };
   struct Taker {
     const char* name;
     void (Impl::*take)(Taker& taker, Time stamp, std::span<const std::byte> raw);
     Time due;
   };
 
-  void add(Topic& topic, const char* name, const viewer::Shape& shape) {
-    const std::uint16_t schema =
-        writer_.add(McapSchema{0, shape.name, "jsonschema", shape.schema.dump()});
-    topic.id = writer_.add(McapChannel{0, schema, name, "json", {}});
+  void tell(std::uint16_t topic, Time stamp, const Json& message, const std::string& part = {}) {
+    sink_.publish(topic, part, stamp, message.dump(-1, ' ', false, Json::error_handler_t::replace));
   }
 
-  void tell(Topic& topic, Time stamp, const Json& message) {
-    const std::string text = message.dump(-1, ' ', false, Json::error_handler_t::replace);
-    const auto ns = static_cast<std::uint64_t>(stamp.time_since_epoch().count());
-    writer_.add(McapMessage{topic.id, ++topic.count, ns, ns, bytes_of(text)});
+  void show_entity(const Json& entity, Time stamp) {
+    tell(scene_, stamp, viewer::update_of(entity), entity["id"].get<std::string>());
   }
 
   template <class M>
@@ -115,7 +117,7 @@ class ViewerChannels::Impl {
       hull["cubes"].push_back({{"pose", viewer::pose({}, 0.0)},
                                {"size", viewer::vector(kBeam_m, kLength_m, 0.4)},
                                {"color", viewer::colour(kHull)}});
-      tell(scene_, stamp, viewer::update_of(hull));
+      show_entity(hull, stamp);
     }
   }
 
@@ -131,7 +133,7 @@ class ViewerChannels::Impl {
         bodies["lines"].push_back(viewer::line({here, then}, false, 0.1, kObstacle));
       }
     }
-    tell(scene_, stamp, viewer::update_of(bodies));
+    show_entity(bodies, stamp);
   }
 
   void show(const PathRequest& request, Time stamp, const char* /*channel*/) {
@@ -142,7 +144,7 @@ class ViewerChannels::Impl {
     for (std::uint32_t i = 0; i < request.zone_count; ++i) {
       viewer::add_zone(zones, request.zones[i].shape, kZone);
     }
-    tell(scene_, stamp, viewer::update_of(zones));
+    show_entity(zones, stamp);
   }
 
   void show(const SonarObstacles& frame, Time stamp, const char* /*channel*/) {
@@ -151,7 +153,7 @@ class ViewerChannels::Impl {
       viewer::add_body(seen, frame.obstacles[i], kObstacle);
       viewer::add_zone(seen, frame.obstacles[i], kZone);
     }
-    tell(scene_, stamp, viewer::update_of(seen));
+    show_entity(seen, stamp);
   }
 
   void show(const SonarPath& path, Time stamp, const char* /*channel*/) {
@@ -164,7 +166,7 @@ class ViewerChannels::Impl {
     }
     Json drawn = viewer::entity(kWorld, "path", stamp);
     drawn["lines"].push_back(viewer::line(points, false, 0.15, kPath));
-    tell(scene_, stamp, viewer::update_of(drawn));
+    show_entity(drawn, stamp);
   }
 
   void show(const Plan& plan, Time stamp, const char* /*channel*/) {
@@ -186,7 +188,7 @@ class ViewerChannels::Impl {
       drawn["spheres"].push_back({{"pose", viewer::pose({mission.goal_x_m, mission.goal_y_m}, 0.0)},
                                   {"size", viewer::vector(1.0, 1.0, 1.0)},
                                   {"color", viewer::colour(kGoal)}});
-      tell(scene_, stamp, viewer::update_of(drawn));
+      show_entity(drawn, stamp);
     }
     say_change(channel, to_string(mission.state), stamp, kInfo);
     if (mission.no_way != NoWayCause::kNone) {
@@ -243,16 +245,17 @@ class ViewerChannels::Impl {
               {"message", std::string{who} + ": " + what},
               {"name", who},
               {"file", ""},
-              {"line", 0}});
+              {"line", 0}},
+         who);
   }
 
-  McapWriter& writer_;
-  Topic transforms_;
-  Topic scene_;
-  Topic waypoints_;
-  Topic position_;
-  Topic sonar_;
-  Topic log_;
+  ViewerSink& sink_;
+  std::uint16_t transforms_;
+  std::uint16_t scene_;
+  std::uint16_t waypoints_;
+  std::uint16_t position_;
+  std::uint16_t sonar_;
+  std::uint16_t log_;
   std::vector<Taker> takers_;  // by channel
   SonarPicture picture_;
   std::map<std::string, std::string> said_;
@@ -260,11 +263,13 @@ class ViewerChannels::Impl {
   bool hull_shown_ = false;
 };
 
-ViewerChannels::ViewerChannels(McapWriter& writer) : impl_{std::make_unique<Impl>(writer)} {}
+ViewerChannels::ViewerChannels(ViewerSink& sink) : impl_{std::make_unique<Impl>(sink)} {}
 ViewerChannels::~ViewerChannels() = default;
 
 void ViewerChannels::take(const Publication& publication, std::span<const std::byte> raw) {
   impl_->take(publication, raw);
 }
+
+void ViewerChannels::begin_anew() { impl_->begin_anew(); }
 
 }  // namespace lodesman

@@ -8,19 +8,21 @@
 #include <span>
 
 #include "mid_level/recording/board_tap.h"
-#include "mid_level/recording/mcap_writer.h"
+#include "mid_level/recording/viewer_sink.h"
 
 namespace lodesman {
 
 class ViewerChannels {
  public:
-  // Adds its channels to the file. `writer` must outlive it.
-  explicit ViewerChannels(McapWriter& writer);
+  // Adds its topics. `sink` must outlive it.
+  explicit ViewerChannels(ViewerSink& sink);
   ViewerChannels(const ViewerChannels&) = delete;
   ViewerChannels& operator=(const ViewerChannels&) = delete;
   ~ViewerChannels();
 
   void take(const Publication& publication, std::span<const std::byte> raw);
+  // What comes next is another boat's: what is said once of each is said again.
+  void begin_anew();
 
  private:
   class Impl;

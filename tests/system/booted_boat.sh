@@ -248,12 +248,25 @@ completes() { # completes <what> <words so far...>
 
 judge_exposure() {
   local program
-  for program in low high recorder; do
+  for program in low high recorder console; do
     inside systemd-analyze security --no-pager "lodesman-$program.service" >"$place/exposure" || true
     grep -o "Overall.*: [0-9.]*" "$place/exposure"
     inside systemd-analyze security --no-pager --threshold=20 "lodesman-$program.service" >/dev/null ||
       fail "the exposure of lodesman-$program: $(cat "$place/exposure")"
   done
+}
+
+# The console answers its own machine, tells a stranger nothing of the boat, and another host nothing.
+judge_console() {
+  local said
+  # shellcheck disable=SC2016  # the words are the inner shell's
+  said=$(inside bash -c 'for host in localhost another.example; do
+      exec 3<>/dev/tcp/127.0.0.1/8765
+      printf "GET /session HTTP/1.1\r\nHost: %s\r\nConnection: close\r\n\r\n" "$host" >&3
+      cat <&3
+    done')
+  grep -q '"scope":null' <<<"$said" || fail "the console does not answer: $said"
+  grep -q "^HTTP/1.1 421" <<<"$said" || fail "the console answers by any name: $said"
 }
 
 # The black box is closed by a stop, and every one is the boat's alone.
@@ -332,6 +345,7 @@ bring_up
 install_it
 judge_words
 judge_exposure
+judge_console
 meet_devices
 sail
 interrupt KILL high "$kills" "lodesman-high killed"

@@ -22,7 +22,7 @@ TEST_CASE("installed: programs find what is shared beside themselves, and sail",
   const fs::path prefix = scratch.file("prefix");
   REQUIRE(run(LODESMAN_CMAKE, {"--install", LODESMAN_BUILD_DIR, "--prefix", prefix.string()}) == 0);
   for (const char* name : {"lodesman", "lodesman-low", "lodesman-high", "lodesman-recorder",
-                           "lodesman-bench", "lodesman-devices"}) {
+                           "lodesman-console", "lodesman-bench", "lodesman-devices"}) {
     CHECK(run(prefix / "bin" / name, {"--version"}) == 0);
   }
   CHECK(fs::exists(prefix / "share" / "doc" / "lodesman" / "README.md"));

@@ -13,11 +13,13 @@
 #include <sstream>
 
 #include "deploy/boat/assembled_boat.h"
+#include "deploy/boat/console_settings.h"
 #include "deploy/boat/device_catalogue.h"
 #include "deploy/boat/stop_signals.h"
 #include "deploy/boat/version.h"
 #include "deploy/operator/cli/bench_options.h"
 #include "deploy/operator/cli/common_options.h"
+#include "deploy/operator/cli/console_option.h"
 #include "deploy/operator/cli/number_options.h"
 #include "deploy/operator/cli/run_output.h"
 #include "deploy/operator/recorder/series_of_boat.h"
@@ -45,7 +47,7 @@ struct SimOptions {
   bool no_images = false;
   bool wait_start = false;
   bool record = false;
-  std::string console = "off";
+  std::string console = kConsoleAuto;
 };
 
 [[nodiscard]] fs::path run_directory(const SimOptions& options, const Scenario& scenario) {
@@ -94,6 +96,10 @@ constexpr const char* kRecording = "mission.mcap";
   return recording.failure();
 }
 
+[[nodiscard]] std::uint16_t console_port(const BoatConfig& configuration) {
+  return read_console(configuration.document.root().table("console")).port;
+}
+
 [[nodiscard]] RunRecord run(const SimOptions& options, const BoatConfig& configuration,
                             const Scenario& scenario, const fs::path& ports,
                             const fs::path& directory, const std::optional<BenchOptions>& bench,
@@ -116,11 +122,12 @@ constexpr const char* kRecording = "mission.mcap";
   if (bench) {
     bench_arguments = arguments_of(*bench, ports);
   }
-  return run_realtime({directory / "config.toml", directory / "scenario.toml", configuration,
-                       scenario, bench_arguments, options.wait_start, interrupted, show, on_plan,
-                       on_row,
-                       options.record ? std::optional{directory / kRecording} : std::nullopt,
-                       [&output](const std::string& fault) { output.note(fault); }});
+  return run_realtime(
+      {directory / "config.toml", directory / "scenario.toml", configuration, scenario,
+       bench_arguments, options.wait_start, interrupted, show, on_plan, on_row,
+       options.record ? std::optional{directory / kRecording} : std::nullopt,
+       [&output](const std::string& fault) { output.note(fault); },
+       console_beside(options.console, console_port(configuration), options.common.quiet)});
 }
 
 // What lodesman-low and lodesman-high are told too.
@@ -204,7 +211,7 @@ void add_options(CLI::App& command, SimOptions& options) {
   command.add_flag("--wait-start", options.wait_start, "Wait for `lodesman start`");
   command.add_flag("--record", options.record,
                    "Every publication into mission.mcap of the run directory");
-  command.add_option("--console", options.console, "off")->check(CLI::IsMember({"off"}));
+  add_console_option(command, options.console);
   add_common_options(command, options.common);
 }
 

@@ -9,6 +9,7 @@
 
 #include "deploy/boat/device_bench.h"
 #include "deploy/boat/exit_status.h"
+#include "deploy/boat/log.h"
 #include "deploy/boat/stop_signals.h"
 #include "deploy/operator/run/child_process.h"
 #include "mid_level/base/clock.h"
@@ -57,6 +58,9 @@ class TwoProcesses {
       high.push_back("--arm");
     }
     high_ = std::make_unique<ChildProcess>("lodesman-high", high);
+    if (run.console) {
+      start_console(*run.console, common);
+    }
     pulse_ = std::jthread{[this](const std::stop_token& stop) { beat(stop); }};
   }
   TwoProcesses(const TwoProcesses&) = delete;
@@ -83,6 +87,14 @@ class TwoProcesses {
     return {};
   }
 
+  // Says once that there is no console any more: the boat sails on without it.
+  void look_at_console() {
+    if (console_ && console_->ended()) {
+      say("lodesman-console ended (" + *console_->ended() + "): the run goes on without it");
+      console_.reset();
+    }
+  }
+
   // Why the recording is not whole; empty where it is, or none was asked for. Once all are stopped.
   [[nodiscard]] std::string recording_fault() {
     if (!recorder_ || recorder_->exit_status() == kExitDone) {
@@ -98,6 +110,7 @@ class TwoProcesses {
     if (recorder_) {
       recorder_->stop(kRecorderPatience);
     }
+    console_.reset();
     remove_dead_segment(segment_);
     if (bench_) {
       bench_->stop(kStopPatience);
@@ -106,6 +119,20 @@ class TwoProcesses {
   }
 
  private:
+  // It says by itself where it is.
+  void start_console(const ConsoleBeside& console, std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(),
+                     {"--set", "console.port=" + std::to_string(console.port), "--sign-in-once"});
+    if (console.or_next) {
+      arguments.emplace_back("--or-next-port");
+    }
+    try {
+      console_ = std::make_unique<ChildProcess>("lodesman-console", arguments);
+    } catch (const StartupError& error) {
+      say(std::string{error.what()} + ": the run goes on without it");
+    }
+  }
+
   // On a thread of its own, so that nothing that this program waits for stops the boat.
   void beat(const std::stop_token& stop) const {
     while (!stop.stop_requested()) {
@@ -123,6 +150,7 @@ class TwoProcesses {
   std::unique_ptr<ChildProcess> bench_;     // likewise
   std::unique_ptr<ChildProcess> low_;
   std::unique_ptr<ChildProcess> high_;
+  std::unique_ptr<ChildProcess> console_;  // where there is one
   std::jthread pulse_;
 };
 
@@ -161,6 +189,7 @@ class TwoProcesses {
   while (!watcher.mission_ended() && !run.interrupted()) {
     std::this_thread::sleep_for(kPollPeriod);
     watcher.poll();
+    processes.look_at_console();
     const RunProgress progress = watcher.progress();
     if (std::string fault = processes.fault(progress.state == MissionState::kIdle);
         !fault.empty()) {

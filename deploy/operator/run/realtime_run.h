@@ -3,6 +3,7 @@
 // on, and stops them in order. The caller's thread.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -13,6 +14,12 @@
 #include "deploy/operator/run/watcher.h"
 
 namespace lodesman::cli {
+
+// The console beside a run, where there is to be one.
+struct ConsoleBeside {
+  std::uint16_t port = 0;
+  bool or_next = false;  // where that is taken, one of the next
+};
 
 struct RealtimeRun {
   std::filesystem::path configuration_file;  // resolved: one file with every key
@@ -31,6 +38,8 @@ struct RealtimeRun {
   std::optional<std::filesystem::path> record = std::nullopt;
   // Called once at the end with why a recording that was asked for is not whole; may be empty.
   std::function<void(const std::string&)> on_recording_fault = {};
+  // What becomes of it changes nothing about the run.
+  std::optional<ConsoleBeside> console = std::nullopt;
 };
 
 // A process that dies or falls silent is named in the record's `fault`, and the other one is

@@ -50,7 +50,8 @@ class Shown {
   Disk disk_;
   MemoryFile file_{disk_};
   McapWriter writer_{file_, "test"};
-  ViewerChannels viewers_{writer_};
+  McapViewerSink sink_{writer_};
+  ViewerChannels viewers_{sink_};
 };
 
 }  // namespace
