@@ -11,7 +11,7 @@ import { MissionEditor } from "./mission_editor.js";
 import { Orders } from "./orders.js";
 import { Lamps, Readouts } from "./readouts.js";
 import { Replay } from "./replay.js";
-import { signed_in_session, sign_out, view_address } from "./session.js";
+import { ask_session, signed_in_session, sign_out, view_address } from "./session.js";
 import { SonarView } from "./sonar_view.js";
 import { Store, kTopics } from "./store.js";
 import { Story } from "./story.js";
@@ -104,6 +104,14 @@ class LinkWatch {
   }
 }
 
+// A console that was started anew knows this session no more: the page begins anew, to sign in.
+function ask_again_who() {
+  ask_session().then(
+    ({ scope }) => scope === null && location.reload(),
+    () => {}, // no console: the link is tried again
+  );
+}
+
 function make_parts(session) {
   const store = new Store();
   store.is_recording = Boolean(session.recording);
@@ -112,11 +120,14 @@ function make_parts(session) {
   const url = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/`;
   const connection = new Connection(url, kTopics, {
     open() {},
-    closed: () => command.link_closed(),
+    closed: () => {
+      command.link_closed();
+      ask_again_who();
+    },
     services() {},
     message: (topic, message) => store.take(topic, message, performance.now()),
   });
-  const orders_parts = { buttons: by_id("order_buttons"), urgent: by_id("urgent"), said: by_id("order_said"), command: by_id("command_box") };
+  const orders_parts = { buttons: by_id("order_buttons"), urgent: by_id("urgent"), said: by_id("order_said"), next: by_id("order_next"), command: by_id("command_box") };
   let orders = null;
   command = new Command(connection, store, session, (text) => text && orders.tell(`Command: ${text}`, "warning"));
   orders = new Orders(orders_parts, command);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bar of orders: who commands, the boat's words, and the stops.
 import { element, forbid, is_forbidden, set_attribute, set_text } from "./dom.js";
+import { next_step } from "./permissions.js";
 import { UrgentOrder } from "./urgent.js";
 
 const kSure_ms = 4000; // within which a word that asks for it is pressed again
+const kTold_ms = 12000; // then what to do next stands in its place
 const kName = "lodesman.name";
 
 const kWords = [
@@ -29,6 +31,7 @@ export class Orders {
   #urgent = new Map();
   #asked = null; // {word, until_ms}
   #link = false;
+  #told_ms = -Infinity;
   mission = () => null; // {text, lacks} of a drawn mission that start takes along, or null
   started = () => {};
 
@@ -59,6 +62,7 @@ export class Orders {
 
   // What was said to an order, for eyes and for readers of the screen.
   tell(text, severity = "info") {
+    this.#told_ms = performance.now();
     set_text(this.#parts.said, text);
     set_attribute(this.#parts.said, "data-severity", severity);
   }
@@ -173,6 +177,12 @@ export class Orders {
     const stopped = this.#command.situation(link).status?.thrust?.state === "stopped";
     set_attribute(this.#buttons.get("estop_release").button, "data-due", stopped ? "" : null);
     for (const order of this.#urgent.values()) order.refresh(now_ms);
+    if (now_ms - this.#told_ms > kTold_ms) {
+      set_text(this.#parts.next, next_step(this.#command.situation(link)));
+      set_text(this.#parts.said, "");
+    } else {
+      set_text(this.#parts.next, "");
+    }
     this.#refresh_command();
   }
 }

@@ -24,6 +24,20 @@ export function why_not(word, now) {
   return by_state[word]?.(status, now) ?? null;
 }
 
+// What somebody who means to sail would do next, in a sentence.
+export function next_step(now) {
+  const { status } = now;
+  if (now.recording) return "This is a recording: look, but nothing can be ordered.";
+  if (!now.link) return "Nothing but the stops is given while the link is lost.";
+  if (!status || status.ok === false) return "";
+  if (status.thrust?.state === "stopped") return "Stopped: find out why, then Release stop, Arm, Start.";
+  if (status.state === "under_way") return "Hold keeps its place; ABORT ends the mission with neutral thrust.";
+  if (status.state === "holding") return "It holds: propellers turn. Resume goes on.";
+  const lacks = status.not_ready ?? [];
+  if (lacks.length > 0) return `Not ready: ${lacks.join("; ")}.`;
+  return now.draft ? "Ready. Start sails the drawn mission." : "Ready. Start sails the mission at hand; draw another under Mission.";
+}
+
 function plain(word) {
   return { estop: "E-STOP", estop_release: "releasing the stop" }[word] ?? word;
 }

@@ -70,7 +70,7 @@ function mission_lamp({ status }) {
 function thrust_lamp({ status }) {
   const state = status?.thrust?.state;
   if (!state) return ["unknown", "–"];
-  const kind = { disarmed: "idle", armed: "good", manual: "note", stopped: "alarm" }[state];
+  const kind = { disarmed: "idle", armed: "note", manual: "note", stopped: "alarm" }[state];
   return [kind ?? "unknown", kThrust[state] ?? plain(state)];
 }
 

@@ -360,7 +360,7 @@ function needle(pen, [x, y], deg, length) {
 
 // ---- North and scale
 
-export function draw_margins(pen) {
+export function draw_margins(pen, pointed_at) {
   const { c, view, colours } = pen;
   const [x, y] = [view.width - 30, 78];
   c.beginPath();
@@ -383,4 +383,7 @@ export function draw_margins(pen) {
   stroke(pen, colours.halo, 5);
   stroke(pen, colours.ink, 2);
   write(pen, length_text(metres), left + wide + 8, low - 2);
+  if (!pointed_at) return;
+  const [east, north] = view.to_world(pointed_at);
+  write(pen, `x ${east.toFixed(1)}  y ${north.toFixed(1)} m`, view.width - 14, low - 2, { align: "right" });
 }

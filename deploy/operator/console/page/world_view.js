@@ -22,6 +22,7 @@ export class WorldView {
   #fingers = new Map(); // pointer id -> [x, y] now
   #press = null; // {from, moved, grabbed}
   #cross = null; // where keys would place, in pixels
+  #pointed_at = null; // where the mouse is
   #words_ms = -Infinity;
   #fitted = false;
   following = true;
@@ -109,7 +110,7 @@ export class WorldView {
     draw.draw_boat(pen, boat, world?.hull_m);
     this.overlay?.(pen);
     if (this.#cross) this.#draw_cross(pen);
-    draw.draw_margins(pen);
+    draw.draw_margins(pen, this.#cross ?? this.#pointed_at);
   }
 
   #middle() {
@@ -172,6 +173,10 @@ export class WorldView {
     canvas.addEventListener("pointerdown", (event) => this.#down(event));
     canvas.addEventListener("pointermove", (event) => this.#move(event));
     for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (event) => this.#up(event));
+    canvas.addEventListener("pointerleave", () => {
+      this.#pointed_at = null;
+      this.dirty = true;
+    });
     canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
     canvas.addEventListener("contextmenu", (event) => this.#remove_under(event));
     canvas.addEventListener("keydown", (event) => this.#key(event));
@@ -206,8 +211,12 @@ export class WorldView {
 
   #move(event) {
     const before = this.#fingers.get(event.pointerId);
-    if (!before || !this.#press) return;
     const at = this.#place(event);
+    if (event.pointerType === "mouse") {
+      this.#pointed_at = at;
+      this.dirty = true;
+    }
+    if (!before || !this.#press) return;
     if (this.#fingers.size === 2) {
       const pair = [...this.#fingers.values()];
       this.#fingers.set(event.pointerId, at);
