@@ -62,7 +62,7 @@ export async function start_boat(bin, page, scenario = "paper-static") {
   const token_file = path.join(scratch, `command-${port}.token`);
   const programs = [sim];
   const stop = async () => {
-    for (const program of programs.toReversed()) await program.stop();
+    for (const program of [...programs].reverse()) await program.stop();
     fs.rmSync(scratch, { recursive: true, force: true });
   };
   try {

@@ -20,6 +20,7 @@ import { Tuning } from "./tuning.js";
 import { WorldView, fill_legend } from "./world_view.js";
 
 const kFrame_ms = 60; // no frame sooner after the last
+const kSilent_s = 2; // a place, or a ping, that is older is not shown as the present
 const kLookAgain_ms = 250; // what is forbidden, how old things are
 
 function make_tabs(changed) {
@@ -77,8 +78,9 @@ function make_more(session) {
 class LinkWatch {
   #store;
   #banner = by_id("link_banner");
-  #stamps = document.querySelectorAll(".age_stamp");
-  is_old = true;
+  #world_stamp = document.querySelector("#world_stage .age_stamp");
+  #sonar = document.querySelector(".sonar");
+  is_old = true; // what the link brings
 
   constructor(store) {
     this.#store = store;
@@ -87,20 +89,37 @@ class LinkWatch {
   look(now_ms) {
     const age_ms = this.#store.age_ms("boat", now_ms);
     this.is_old = this.#store.is_old(now_ms);
-    document.body.classList.toggle("old", this.is_old);
+    const silence_s = this.#store.silence_s(now_ms);
+    const is_silent = silence_s !== null && silence_s > kSilent_s;
+    document.body.classList.toggle("old", this.is_old || is_silent);
     document.body.classList.toggle("never", age_ms === Infinity);
-    this.#banner.hidden = !this.is_old;
-    if (!this.is_old) return;
-    const heard = Number.isFinite(age_ms);
-    const title = heard ? "LINK LOST" : "No link yet";
-    const rest = heard ? ` What you see is ${span_text(age_ms / 1000)} old. ABORT and E-STOP are still given, and given again.` : " Waiting for the first word of the boat.";
+    this.#look_at_sonar(now_ms);
+    this.#banner.hidden = !(this.is_old || is_silent);
+    if (age_ms === Infinity) this.#say("No link yet", "Waiting for the first word of the boat.", "nothing yet");
+    else if (this.is_old) {
+      const age = span_text(age_ms / 1000);
+      this.#say("LINK LOST", `What you see is ${age} old. ABORT and E-STOP are still given, and given again.`, `${age} old`);
+    } else if (is_silent) {
+      const age = span_text(silence_s);
+      this.#say("THE BOAT IS SILENT", `The console answers, but the boat's heading and place are ${age} old.`, `${age} old`);
+    }
+  }
+
+  #look_at_sonar(now_ms) {
+    const age_s = this.#store.sonar_age_s(now_ms);
+    const is_old = age_s > kSilent_s;
+    this.#sonar.classList.toggle("old_sonar", is_old);
+    if (is_old) set_text(this.#sonar.querySelector(".age_stamp"), Number.isFinite(age_s) ? `${span_text(age_s)} old` : "");
+  }
+
+  // The title is read aloud when it changes, the age is not.
+  #say(title, rest, stamp) {
     if (this.#banner.dataset.title !== title) {
       this.#banner.dataset.title = title;
       this.#banner.replaceChildren(element("strong", {}, title), element("span", { "aria-live": "off" }));
     }
-    set_text(this.#banner.lastElementChild, rest);
-    const stamp = heard ? `${span_text(age_ms / 1000)} old` : "nothing yet";
-    for (const node of this.#stamps) set_text(node, stamp);
+    set_text(this.#banner.lastElementChild, ` ${rest}`);
+    set_text(this.#world_stamp, stamp);
   }
 }
 

@@ -125,7 +125,7 @@ export class Charts {
         axes: {
           x: { drawAxis: false, drawGrid: false },
           y: {
-            axisLabelWidth: 34, pixelsPerLabel: 22, axisLabelFontSize: 10,
+            axisLabelWidth: 34, pixelsPerLabel: 15, axisLabelFontSize: 10,
             axisLabelFormatter: chart.heading ? (v) => String(Math.round(((v % 360) + 360) % 360)) : (v) => String(+v.toPrecision(3)),
           },
         },

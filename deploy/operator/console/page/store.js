@@ -42,11 +42,30 @@ export class Store {
   }
 
   // A paused recording says nothing new and is not old.
+  get #is_paused() {
+    return this.is_recording && this.newest.replay?.playing === false;
+  }
+
+  // Whether the link brings nothing any more.
   is_old(now_ms) {
-    if (this.is_recording && this.newest.replay && !this.newest.replay.playing) {
-      return this.age_ms("replay", now_ms) > 5 * kOld_ms;
-    }
+    if (this.#is_paused) return this.age_ms("replay", now_ms) > 5 * kOld_ms;
     return this.age_ms("boat", now_ms) > kOld_ms;
+  }
+
+  // Seconds since the boat itself knew where it is or looks: the link may stand while it is dead. Null
+  // where it never knew.
+  silence_s(now_ms) {
+    const { attitude, state } = this.newest.boat?.ages_s ?? {};
+    const ages = [attitude, state].filter((age) => typeof age === "number");
+    if (ages.length === 0) return null;
+    return Math.min(...ages) + (this.#is_paused ? 0 : this.age_ms("boat", now_ms) / 1000);
+  }
+
+  // The same of its newest ping.
+  sonar_age_s(now_ms) {
+    const age = this.newest.boat?.ages_s?.sonar;
+    const heard_s = this.#is_paused ? 0 : this.age_ms("sonar", now_ms) / 1000;
+    return typeof age === "number" ? Math.max(age, heard_s) : heard_s;
   }
 
   #take_boat({ position_m, time_s }) {
