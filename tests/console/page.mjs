@@ -164,6 +164,32 @@ async function steers_by_keys(page) {
   await page.click("#tab_instruments");
 }
 
+async function stops(page) {
+  await page.keyboard.press("Shift+E");
+  await until("the stop is confirmed", async () => /confirmed in/.test(await page.locator("#estop").innerText()));
+  await shows(page, "Thrusters", /E-stopped/);
+  await page.click("#order_arm", { force: true });
+  assert.match(await said(page), /latched/, "the reason is in reach");
+  await press(page, "estop_release");
+  assert.match(await said(page), /Press again/, "not by one touch");
+  await press(page, "estop_release");
+  await shows(page, "Thrusters", /Disarmed/);
+}
+
+async function is_tuned(page) {
+  await page.click("#tab_settings");
+  const row = page.locator(".tunable", { hasText: "zones.margin_m" });
+  await row.locator("input[type=number]").fill("1.05");
+  await row.locator("button", { hasText: "Set" }).click();
+  await until("the setting is taken", async () => (await row.locator("output").innerText()) === "1.05");
+  await row.locator("input[type=number]").fill("99");
+  await row.locator("button", { hasText: "Set" }).click();
+  assert.match(await said(page), /must be 0 to 20/);
+  await row.locator("button", { hasText: "back to" }).click();
+  await until("the setting is as before", async () => (await row.locator("output").innerText()) !== "1.05");
+  await page.click("#tab_instruments");
+}
+
 async function commands(browser, page, { url, tokens }) {
   const other = await opened(browser, url, tokens.command);
   await other.fill("#command_name", "Bridge");
@@ -275,6 +301,8 @@ async function look(browser, boat) {
     await step("is sent to a goal that is tapped", () => taps_a_goal(page));
     await step("is steered by keys", () => steers_by_keys(page));
     await step("is commanded by one, aborted by all", () => commands(browser, page, boat));
+    await step("is stopped by keys, and released", () => stops(page));
+    await step("is tuned within limits", () => is_tuned(page));
     if (boat.pid) await step("is cut off, and says so", () => is_cut_off(page, boat.pid));
     await press(page, "arm");
     await press(page, "start");

@@ -7,7 +7,7 @@ import { unwrapped } from "./geometry.js";
 const kLibrary = "/lib/dygraph.min.js";
 const kStyle = "/lib/dygraph.css";
 const kWindow_s = 60;
-const kDraw_ms = 250;
+const kDraw_ms = 400;
 const kAges = ["attitude", "position_fix", "sonar", "plan"];
 
 // `values` takes one row's numbers from a boat message; null breaks the line.

@@ -31,7 +31,9 @@ export class SonarView {
     if (!sonar.image || this.#decoding || this.#parts.canvas.offsetParent === null) return;
     this.#decoding = true;
     try {
-      const bytes = Uint8Array.from(atob(sonar.image), (letter) => letter.charCodeAt(0));
+      const letters = atob(sonar.image);
+      const bytes = new Uint8Array(letters.length);
+      for (let i = 0; i < letters.length; i++) bytes[i] = letters.charCodeAt(i);
       const bitmap = await createImageBitmap(new Blob([bytes]));
       this.#bitmap?.close();
       this.#bitmap = bitmap;
