@@ -72,3 +72,20 @@ test("store: the track keeps to a bound, and begins anew with the boat's clock",
   store.take("/lodesman/boat", { position_m: [5, 5], time_s: 0 }, 20001);
   assert.equal(store.track.length, 1);
 });
+
+test("store: a place that the boat itself no longer knows is old though the link stands", () => {
+  const store = new Store();
+  assert.equal(store.silence_s(0), null);
+  store.take("/lodesman/boat", { position_m: [0, 0], time_s: 9, ages_s: { attitude: 7.5, state: 8, sonar: null } }, 1000);
+  assert.equal(store.is_old(1100), false);
+  assert.equal(store.silence_s(1100), 7.6);
+  assert.equal(store.sonar_age_s(1100), Infinity);
+});
+
+test("store: a status that was told long ago is none to go by", () => {
+  const store = new Store();
+  store.take("/lodesman/status", status(), 1000);
+  assert.equal(store.status_now(2000).state, "idle");
+  assert.match(store.status_now(9000).error, /8 s ago/);
+  assert.equal(why_not("abort", now({ status: store.status_now(9000) })), null);
+});

@@ -186,7 +186,7 @@ function make_loop(parts) {
     parts.orders.refresh(linked, now_ms);
     parts.manual.refresh(linked);
     parts.tuning.refresh(linked);
-    parts.lamps.render(store.newest, link.is_old, store.age_ms("boat", now_ms));
+    parts.lamps.render({ ...store.newest, status: store.status_now(now_ms) }, link.is_old, store.age_ms("boat", now_ms));
     if (!by_id("panel_health").hidden) parts.health.render();
   };
   const frame = () => {

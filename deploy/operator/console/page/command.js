@@ -26,7 +26,8 @@ export class Command {
 
   // What permissions are judged by. `link`: whether what is shown is the present.
   situation(link) {
-    const { status, clients } = this.#store.newest;
+    const { clients } = this.#store.newest;
+    const status = this.#store.status_now(performance.now());
     return {
       recording: this.#session.recording,
       scope: clients?.you?.scope ?? this.#session.scope,

@@ -49,8 +49,7 @@ export class Readouts {
       const share = newest.boat?.[`thrust_${name}`];
       const { fill, value } = this.#bars[name];
       const known = finite(share) ? Math.max(-1, Math.min(1, share)) : 0;
-      fill.style.left = `${50 + Math.min(0, known) * 50}%`;
-      fill.style.width = `${Math.abs(known) * 50}%`;
+      set_attribute(fill, "style", `left: ${(50 + Math.min(0, known) * 50).toFixed(1)}%; width: ${(Math.abs(known) * 50).toFixed(1)}%`);
       set_text(value, finite(share) ? (share * 100).toFixed(0).replace("-0", "0") : "–");
     }
   }

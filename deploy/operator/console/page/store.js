@@ -8,6 +8,7 @@ export const kTopics = [
 ].map((name) => `/lodesman/${name}`);
 
 export const kOld_ms = 1500; // a boat that has said nothing for so long is not shown as if it had
+const kOldStatus_ms = 4000; // it comes twice a second
 const kTrackStep_m = 0.1;
 const kMostTrack = 4000;
 
@@ -61,6 +62,14 @@ export class Store {
     return Math.min(...ages) + (this.#is_paused ? 0 : this.age_ms("boat", now_ms) / 1000);
   }
 
+  // The boat's status, or that it is too old to go by.
+  status_now(now_ms) {
+    const { status } = this.newest;
+    const age_ms = this.age_ms("status", now_ms);
+    if (!status || this.#is_paused || age_ms < kOldStatus_ms) return status;
+    return { ok: false, error: `its state was last told ${(age_ms / 1000).toFixed(0)} s ago` };
+  }
+
   // The same of its newest ping.
   sonar_age_s(now_ms) {
     const age = this.newest.boat?.ages_s?.sonar;
@@ -70,7 +79,7 @@ export class Store {
 
   #take_boat({ position_m, time_s }) {
     const last = this.track.at(-1);
-    if (last && (time_s < last.t_s - 0.5 || time_s > last.t_s + 120)) this.track.length = 0;
+    if (last && time_s < last.t_s - 0.5) this.track.length = 0;
     if (!position_m) return;
     const [x, y] = position_m;
     if (last && this.track.length > 0 && distance([last.x, last.y], position_m) < kTrackStep_m) return;

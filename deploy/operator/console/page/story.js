@@ -5,6 +5,15 @@ import { story_of } from "./words.js";
 
 const kSigns = { info: "◆", warning: "▲", critical: "■" };
 
+const key_of = ({ severity, text }) => `${severity} ${text}`;
+
+function item_of(alarm) {
+  const item = element("li", { class: "alarm" }, element("span", { "aria-hidden": "true" }, kSigns[alarm.severity] ?? "▲"), ` ${alarm.text}`);
+  set_attribute(item, "data-severity", alarm.severity);
+  item.dataset.key = key_of(alarm);
+  return item;
+}
+
 export class Story {
   #now;
   #alarms;
@@ -26,10 +35,12 @@ export class Story {
     const wanted = JSON.stringify(alarms);
     if (wanted === this.#shown) return;
     this.#shown = wanted;
-    this.#alarms.replaceChildren(...alarms.map(({ severity, text }) => {
-      const item = element("li", { class: "alarm" }, element("span", { "aria-hidden": "true" }, kSigns[severity] ?? "▲"), ` ${text}`);
-      set_attribute(item, "data-severity", severity);
-      return item;
-    }));
+    // What stays is left alone, so that only what is new is read aloud.
+    const kept = new Map([...this.#alarms.children].map((item) => [item.dataset.key, item]));
+    const items = alarms.map((alarm) => kept.get(key_of(alarm)) ?? item_of(alarm));
+    for (const item of kept.values()) if (!items.includes(item)) item.remove();
+    items.forEach((item, i) => {
+      if (this.#alarms.children[i] !== item) this.#alarms.insertBefore(item, this.#alarms.children[i] ?? null);
+    });
   }
 }

@@ -282,6 +282,11 @@ function arrow(pen, from, to) {
 
 // ---- The boat and where it was
 
+// Where nothing was heard for a while no line is made up.
+function is_gap(before, now) {
+  return now.t_s - before.t_s > 1 && Math.hypot(now.x - before.x, now.y - before.y) > 1;
+}
+
 export function draw_track(pen, track) {
   const { c, view, colours } = pen;
   if (track.length < 2) return;
@@ -295,7 +300,7 @@ export function draw_track(pen, track) {
     for (let i = from; i <= to; i++) {
       const x = view.width / 2 + (track[i].x - view.centre[0]) * view.scale;
       const y = view.height / 2 - (track[i].y - view.centre[1]) * view.scale;
-      if (i === from) c.moveTo(x, y);
+      if (i === from || is_gap(track[i - 1], track[i])) c.moveTo(x, y);
       else c.lineTo(x, y);
     }
     const share = Math.round((100 * part) / (parts - 1));
