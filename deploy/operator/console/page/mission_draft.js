@@ -85,11 +85,11 @@ export class Draft {
   handles() {
     const { goal_m, waypoints_m = [], fence_m = [], keep_out_m = [] } = this.mission;
     const list = [];
-    const row = (points, kind) => points.forEach((at, i) => list.push({ at, kind, points, i }));
+    const row = (points, kind, area) => points.forEach((at, i) => list.push({ at, kind, points, i, area }));
     if (goal_m) list.push({ at: goal_m, kind: "goal" });
     row(waypoints_m, "waypoint");
     row(fence_m, "fence");
-    keep_out_m.forEach((corners) => row(corners, "keep_out"));
+    keep_out_m.forEach((corners, area) => row(corners, "keep_out", area));
     return list;
   }
 

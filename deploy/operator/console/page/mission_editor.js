@@ -190,7 +190,7 @@ export class MissionEditor {
   #show_points() {
     const named = { goal: "Goal", waypoint: "Waypoint", fence: "Fence", keep_out: "Keep-out" };
     const items = this.draft.handles().map((handle) => {
-      const place = handle.kind === "goal" ? "" : ` ${handle.i + 1}`;
+      const place = handle.kind === "goal" ? "" : ` ${handle.area === undefined ? "" : `${handle.area + 1}.`}${handle.i + 1}`;
       const input = (axis) => element("input", {
         type: "number", step: "0.1", value: String(handle.at[axis]), "aria-label": `${named[handle.kind]}${place} ${axis === 0 ? "x east" : "y north"} in metres`,
         onchange: (event) => this.#move(handle, axis, Number(event.target.value)),
