@@ -56,7 +56,8 @@ constexpr std::size_t kMaxFileLines = 400;
 
 [[nodiscard]] bool needs_licence_line(const SourceFile& file) {
   static const std::regex sources{
-      R"(\.(h|cpp|cmake|sh|py|gp|toml|js|css|html|service|rules)$|CMakeLists\.txt$|\.clang-tidy$)"};
+      R"(\.(h|cpp|cmake|sh|py|gp|toml|m?js|css|html|service|rules)$|CMakeLists\.txt$|)"
+      R"(\.clang-tidy$)"};
   return std::regex_search(file.path, sources) || file.text.starts_with("#!");
 }
 
