@@ -67,6 +67,10 @@ class Bench {
     fs::remove_all(streams);
     return outcome;
   }
+  // What the program left in a file; empty where there is none.
+  [[nodiscard]] std::string left_in(const std::string& name) const {
+    return text_of(place_ / name);
+  }
   // Whether the program left anything behind.
   [[nodiscard]] bool untouched() const {
     return std::distance(fs::directory_iterator{place_}, fs::directory_iterator{}) == written_;

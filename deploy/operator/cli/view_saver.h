@@ -1,20 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // Saves the sonar view of every so many seconds' plan as a JPEG, as the paper's DeltaT thread did,
-// but beside the tasks and not in them. The watcher's thread.
+// but beside the tasks and not in them: with the echoes and the tracks where it sails by echoes.
+// The watcher's thread.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
 #include "deploy/operator/report/run_record.h"
+#include "low_level/sonar/mounting.h"
 #include "mid_level/blackboard/blackboard.h"
 
 namespace lodesman::cli {
 
+struct ViewSettings {
+  Duration period{};
+  bool by_echoes = false;        // not by obstacles that it was told of
+  SonarMounting sonar_mounting;  // of the head that heard them
+};
+
 class ViewSaver {
  public:
   // Into <run directory>/sonar, which it makes.
-  ViewSaver(const std::filesystem::path& run_directory, Duration period, double range_m);
+  ViewSaver(const std::filesystem::path& run_directory, double range_m,
+            const ViewSettings& settings);
 
   // Saves the view of this plan if one is due. `path` may be nullptr. A view that cannot be written
   // is left out: nobody's mission ends for a picture.
@@ -26,8 +35,8 @@ class ViewSaver {
 
  private:
   std::filesystem::path directory_;
-  Duration period_;
   double range_m_;
+  ViewSettings settings_;
   Time due_{};
   int saved_ = 0;
   std::string fault_;
