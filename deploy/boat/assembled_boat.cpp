@@ -113,6 +113,7 @@ void require_sound(const BoatConfig& config, const Scenario* scenario) {
   }
   require_sound_position(config, voyage_of(config, scenario), has_truth);
   if (scenario != nullptr) {
+    require_scene(config, *scenario);
     require_faults(config, *scenario);
   }
 }

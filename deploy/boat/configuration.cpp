@@ -93,12 +93,20 @@ void overlay(const std::vector<std::string>& sets, TomlDocument& configuration) 
 }
 
 [[nodiscard]] SimulationSettings read_simulation(const TomlTable& table) {
-  return {table.text("scenario", 4096, 0),
-          static_cast<SimulatedVessel>(table.choice("vessel", {"thrust", "estimate", "bench"})),
-          table.text("hull", 4096),
-          table.duration("lockstep_jitter_s", Range::between(0.0, 0.1)),
-          table.duration("sonar_view_period_s", Range::between(0.05, 60.0)),
-          static_cast<SimulatedScene>(table.choice("scene", {"scenario", "obstacles", "beams"}))};
+  SimulationSettings settings;
+  settings.scenario = table.text("scenario", 4096, 0);
+  settings.vessel =
+      static_cast<SimulatedVessel>(table.choice("vessel", {"thrust", "estimate", "bench"}));
+  settings.hull = table.text("hull", 4096);
+  settings.lockstep_jitter = table.duration("lockstep_jitter_s", Range::between(0.0, 0.1));
+  settings.sonar_view_period = table.duration("sonar_view_period_s", Range::between(0.05, 60.0));
+  settings.scene = static_cast<SimulatedScene>(
+      table.choice("scene", {"scenario", "obstacles", "beams", "detections"}));
+  settings.detections = read_detection_errors(table.table("detections"));
+  if (settings.detections.any() && settings.scene != SimulatedScene::kDetections) {
+    table.refuse("detections", "is of scene = \"detections\" alone");
+  }
+  return settings;
 }
 
 [[nodiscard]] std::optional<GeoPoint> read_origin(const TomlTable& table) {

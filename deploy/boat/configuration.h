@@ -12,6 +12,7 @@
 
 #include "deploy/boat/common_options.h"
 #include "drivers/hal/thrust_shape.h"
+#include "hal_sim/scenario/detection_errors.h"
 #include "high_level/tasks/high_level.h"
 #include "low_level/tasks/low_level.h"
 #include "mid_level/base/geodesy.h"
@@ -50,9 +51,10 @@ enum class SimulatedVessel : std::uint8_t {
 
 // What the tracks of a simulated boat are made of.
 enum class SimulatedScene : std::uint8_t {
-  kScenario,   // as the scenario says
-  kObstacles,  // the scenario's own obstacles
-  kBeams,      // echoes
+  kScenario,    // as the scenario says
+  kObstacles,   // the scenario's own obstacles
+  kBeams,       // echoes
+  kDetections,  // returns, a range a beam, with the errors that the configuration has
 };
 
 struct SimulationSettings {
@@ -62,6 +64,7 @@ struct SimulationSettings {
   Duration lockstep_jitter{};
   Duration sonar_view_period{};
   SimulatedScene scene = SimulatedScene::kScenario;
+  DetectionErrors detections;  // of kDetections alone
 };
 
 struct BoatConfig {

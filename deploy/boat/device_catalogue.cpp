@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "deploy/boat/device_contract.h"
+#include "deploy/boat/looped_devices.h"
+#include "deploy/boat/voyage.h"
 
 namespace lodesman {
 namespace {
@@ -52,6 +54,19 @@ template <class Device>
     table.refuse(contract.key, error.what());
   }
   table.refuse(contract.key, no_driver(address));
+}
+
+// Why the device at that address cannot have the fault; empty where it can.
+[[nodiscard]] std::string objection_to(const Fault& fault, const std::string& address) {
+  const std::string scheme = scheme_of(address);
+  if (scheme == "sim" && needs_bytes(fault.device, fault.kind)) {
+    return "needs a device that is emulated to the byte (loop:, or lodesman hil)";
+  }
+  if (scheme == "loop" && alters_pings(fault.device, fault.kind) &&
+      !looped_sonar_sends_images(address)) {
+    return "is one of images, and output=83P sends none";
+  }
+  return {};
 }
 
 template <class Is>
@@ -121,15 +136,25 @@ void require_addresses(const BoatConfig& config) {
 void require_faults(const BoatConfig& config, const Scenario& scenario) {
   for (const Fault& fault : scenario.faults) {
     for (const DeviceContract* contract : contracts()) {
-      if (fault.device == contract->faults && needs_bytes(fault.kind) &&
-          scheme_of(config.devices.*contract->address) == "sim") {
+      const std::string& address = config.devices.*contract->address;
+      if (fault.device != contract->faults) {
+        continue;
+      }
+      if (const std::string no = objection_to(fault, address); !no.empty()) {
         config.document.root().table("devices").refuse(
             contract->key, "the scenario's fault \"" + std::string{name_of(fault.device)} + " " +
-                               std::string{name_of(fault.kind)} +
-                               "\" needs a device that is emulated to the byte (loop:, or lodesman "
-                               "hil)");
+                               std::string{name_of(fault.kind)} + "\" " + no);
       }
     }
+  }
+}
+
+void require_scene(const BoatConfig& config, const Scenario& scenario) {
+  const DeviceContract& sonar = sonar_contract();
+  if (sailed_sonar(config, scenario).scene == SonarScene::kDetections &&
+      scheme_of(config.devices.*sonar.address) != "sim") {
+    config.document.root().table("devices").refuse(
+        sonar.key, "must be sim: in the scene \"detections\", which no other sonar gives");
   }
 }
 

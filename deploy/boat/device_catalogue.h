@@ -30,6 +30,8 @@ namespace lodesman {
 void require_addresses(const BoatConfig& config);
 // Refuses faults that a device as simulated here cannot have.
 void require_faults(const BoatConfig& config, const Scenario& scenario);
+// Refuses a scene that the sonar cannot give.
+void require_scene(const BoatConfig& config, const Scenario& scenario);
 
 // What the devices are made of. Lines and relay must outlive them.
 struct Workshop {

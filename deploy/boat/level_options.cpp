@@ -221,6 +221,9 @@ namespace {
   options.response.hull_half_length_m =
       vehicle.number("hull_length_m", Range::above(0.0, 100.0)) / 2.0;
   options.response.hull_half_beam_m = vehicle.number("hull_beam_m", Range::above(0.0, 50.0)) / 2.0;
+  options.sight.unseen_speed_m_s = pilot.number("unseen_speed_m_s", Range::above(0.0, 10.0));
+  options.sight.bow_m = options.response.hull_half_length_m + manoeuvres.clearance_m;
+  options.sight.latency_s = to_seconds(options.latency);
   return options;
 }
 

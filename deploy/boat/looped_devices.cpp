@@ -48,6 +48,11 @@ void check_looped_sonar(const std::string& address) {
   static_cast<void>(is_instant(where));
 }
 
+bool looped_sonar_sends_images(const std::string& address) {
+  const DeltaTSettings settings = delta_t_settings_in(looped_sonar(address));
+  return !settings.controls || settings.control.output == delta_t::RecordKind::kImage;
+}
+
 std::unique_ptr<PositionSensor> make_looped_position(const Workshop& shop,
                                                      const std::string& address) {
   const DeviceAddress where = looped_receiver(address);

@@ -12,6 +12,9 @@ namespace lodesman {
 // Reads the settings as driver and stand-in will, and makes nothing. Throw StartupError.
 void check_looped_position(const std::string& address);
 void check_looped_sonar(const std::string& address);
+// Whether the looped sonar of that address, which was checked, is told to send images, or left to
+// do so as its user set it.
+[[nodiscard]] bool looped_sonar_sends_images(const std::string& address);
 
 [[nodiscard]] std::unique_ptr<PositionSensor> make_looped_position(const Workshop& shop,
                                                                    const std::string& address);

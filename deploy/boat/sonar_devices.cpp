@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/boat/device_contract.h"
 #include "deploy/boat/looped_devices.h"
+#include "deploy/boat/voyage.h"
 #include "drivers/delta_t/delta_t.h"
 #include "drivers/delta_t/ping_player.h"
 #include "drivers/stream/udp_socket.h"
@@ -60,7 +61,9 @@ const DeviceContract& sonar_contract() {
 
 std::unique_ptr<ImagingSonar> make_sonar(const Workshop& shop, const std::string& address) {
   if (is_sim(shop, address)) {
-    return std::make_unique<SimSonar>(*shop.scenario, *shop.link);
+    Scenario scenario = *shop.scenario;
+    scenario.sonar = sailed_sonar(shop.config, scenario);
+    return std::make_unique<SimSonar>(scenario, *shop.link);
   }
   if (scheme_of(address) == "loop") {
     return make_looped_sonar(shop, address);

@@ -19,6 +19,25 @@ namespace {
 
 }  // namespace
 
+ScenarioSonar sailed_sonar(const BoatConfig& config, const Scenario& scenario) {
+  ScenarioSonar sonar = scenario.sonar;
+  switch (config.simulation.scene) {
+    case SimulatedScene::kScenario:
+      break;
+    case SimulatedScene::kObstacles:
+      sonar.scene = SonarScene::kObstacles;
+      break;
+    case SimulatedScene::kBeams:
+      sonar.scene = SonarScene::kBeams;
+      break;
+    case SimulatedScene::kDetections:
+      sonar.scene = SonarScene::kDetections;
+      sonar.detections = config.simulation.detections;
+      break;
+  }
+  return sonar;
+}
+
 Voyage voyage_of(const BoatConfig& config, const Scenario* scenario) {
   Voyage voyage;
   voyage.position_source = position_source_of(config, scenario);
@@ -35,9 +54,7 @@ Voyage voyage_of(const BoatConfig& config, const Scenario* scenario) {
   voyage.seed = scenario->seed;
   voyage.mission = scenario->mission.definition;
   voyage.sonar_sector_rad = scenario->sonar.sector_rad;
-  const SimulatedScene scene = config.simulation.scene;
-  if (scene == SimulatedScene::kObstacles ||
-      (scene == SimulatedScene::kScenario && scenario->sonar.scene == SonarScene::kObstacles)) {
+  if (sailed_sonar(config, *scenario).scene == SonarScene::kObstacles) {
     voyage.known_scene = scenario->obstacles;
   }
   return voyage;

@@ -25,6 +25,9 @@ struct Voyage {
   std::optional<MissionDefinition> mission;  // that it begins with
 };
 
+// The scenario's sonar, with the scene that the configuration puts in the place of its own.
+[[nodiscard]] ScenarioSonar sailed_sonar(const BoatConfig& config, const Scenario& scenario);
+
 // `scenario`: of the simulated world, where there is one.
 [[nodiscard]] Voyage voyage_of(const BoatConfig& config, const Scenario* scenario);
 

@@ -31,14 +31,13 @@ SampleFeed::Due SampleFeed::poll(Time now) noexcept {
   if (sample == nullptr) {
     return {};
   }
-  const FaultKind fault =
-      sample->started != 0 ? faults_.at(sample->scenario_time_s) : FaultKind::kNone;
-  if (fault == FaultKind::kDisconnect) {
-    return {ReadStatus::kDisconnected, {}};
+  const Fault fault = sample->started != 0 ? faults_.running(sample->scenario_time_s) : Fault{};
+  if (fault.kind == FaultKind::kDisconnect) {
+    return {ReadStatus::kDisconnected};
   }
   const bool due = !any_given_ || (sample->stamp > last_given_ &&
                                    sample->stamp + SampleDue::kEarly_max >= next_due_);
-  if (!due || fault == FaultKind::kStall) {
+  if (!due || fault.kind == FaultKind::kStall) {
     return {};
   }
   // The sensor keeps its phase, unless it fell behind by more than a period.
@@ -47,7 +46,8 @@ SampleFeed::Due SampleFeed::poll(Time now) noexcept {
   due_.next_at(next_due_);
   last_given_ = sample->stamp;
   any_given_ = true;
-  return {fault == FaultKind::kCorrupt ? ReadStatus::kCorrupt : ReadStatus::kFresh, *sample};
+  return {fault.kind == FaultKind::kCorrupt ? ReadStatus::kCorrupt : ReadStatus::kFresh, *sample,
+          fault};
 }
 
 }  // namespace lodesman

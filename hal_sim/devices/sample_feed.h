@@ -17,6 +17,7 @@ class SampleFeed {
   struct Due {
     ReadStatus status = ReadStatus::kNothingNew;
     WorldSample sample{};  // valid when kFresh; the state that was lost when kCorrupt
+    Fault fault{};         // that runs: what is fresh may have to be altered by it
   };
   // kFresh or kCorrupt once a period; otherwise kNothingNew or, at every poll, kDisconnected.
   [[nodiscard]] Due poll(Time now) noexcept;

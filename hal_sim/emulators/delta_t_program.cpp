@@ -44,6 +44,7 @@ DeltaTProgram::DeltaTProgram(const DeltaTProgramOptions& options, Time now)
       repeats_{"delta_t repeat", options.seed},
       spoils_{"delta_t corrupt", options.seed},
       foreign_{"delta_t foreign", options.seed},
+      ping_fault_{options.seed},
       foreign_until_{now} {}
 
 void DeltaTProgram::power_cycle(Time now) {
@@ -66,7 +67,7 @@ bool DeltaTProgram::has_fault(FaultKind kind) const noexcept {
     case FaultKind::kOutput:
     case FaultKind::kAverage:
     case FaultKind::kCentimetres: return true;
-    default: return false;
+    default: return settings_.sends_image && alters_pings(FaultDevice::kSonar, kind);
   }
 }
 
@@ -143,7 +144,17 @@ void DeltaTProgram::count(Time now) {
   }
 }
 
-DeltaTProgram::Heard DeltaTProgram::hear(std::span<const double> surfaces_m) const {
+Fault DeltaTProgram::ping_fault() const noexcept {
+  for (const FaultKind kind : {FaultKind::kSaturated, FaultKind::kFrozen, FaultKind::kBlinded,
+                               FaultKind::kWeed, FaultKind::kInterference}) {
+    if (const Running* one = running(kind); one != nullptr) {
+      return one->fault;
+    }
+  }
+  return {};
+}
+
+DeltaTProgram::Heard DeltaTProgram::hear(std::span<const double> surfaces_m, double thrust_load) {
   Heard heard;
   // Counted by the nominal speed of sound, whatever the water's is.
   const double scale = kNominalSoundSpeed_m_s / options_.water_sound_speed_m_s;
@@ -151,18 +162,27 @@ DeltaTProgram::Heard DeltaTProgram::hear(std::span<const double> surfaces_m) con
     heard.surfaces_m.push_back(surface_m * scale);
   }
   if (settings_.sends_image) {
-    const std::size_t samples = options_.samples;
-    heard.image.resize(samples * surfaces_m.size());
-    for (std::size_t beam = 0; beam < surfaces_m.size(); ++beam) {
-      draw_echo(heard.surfaces_m[beam], settings_.range_m,
-                std::span{heard.image}.subspan(beam * samples, samples));
-    }
-    const double bright = brightness();
-    for (std::uint8_t& echo : heard.image) {
-      echo = static_cast<std::uint8_t>(std::min(std::round(echo * bright), kBrightest));
-    }
+    draw(thrust_load, heard);
   }
   return heard;
+}
+
+void DeltaTProgram::draw(double thrust_load, Heard& heard) {
+  const std::size_t samples = options_.samples;
+  const std::size_t count = heard.surfaces_m.size();
+  heard.image.resize(samples * count);
+  for (std::size_t beam = 0; beam < count; ++beam) {
+    draw_echo(heard.surfaces_m[beam], settings_.range_m,
+              std::span{heard.image}.subspan(beam * samples, samples));
+  }
+  const double bright = brightness();
+  for (std::uint8_t& echo : heard.image) {
+    echo = static_cast<std::uint8_t>(std::min(std::round(echo * bright), kBrightest));
+  }
+  ping_fault_.alter(
+      ping_fault(), thrust_load,
+      {heard.image, static_cast<std::uint32_t>(count), options_.samples,
+       static_cast<double>(settings_.range_m), bearing_rad(0), to_rad(increment_deg())});
 }
 
 // Of one geometry alone: after a change the mean begins anew.
@@ -287,7 +307,7 @@ void DeltaTProgram::ping(std::span<const double> surfaces_m, const PingSituation
     return;
   }
   count(now);
-  remember(hear(surfaces_m));
+  remember(hear(surfaces_m, situation.thrust_load));
   // A profile without its points is none, and an image too large for a datagram is not sent.
   if (!settings_.sends_image && !settings_.profile_points) {
     return;

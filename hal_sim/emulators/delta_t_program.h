@@ -12,6 +12,7 @@
 #include "hal_sim/emulators/delta_t_control.h"
 #include "hal_sim/emulators/delta_t_record.h"
 #include "hal_sim/emulators/faulty_device.h"
+#include "hal_sim/sonar/ping_fault.h"
 #include "mid_level/base/random_stream.h"
 
 namespace lodesman {
@@ -46,6 +47,7 @@ struct PingSituation {
   double longitude_deg = 0.0;
   double speed_m_s = 0.0;  // over ground
   double course_rad = 0.0;
+  double thrust_load = 0.0;  // as in the world's sample
 };
 
 class DeltaTProgram final : public FaultyDevice {
@@ -87,7 +89,10 @@ class DeltaTProgram final : public FaultyDevice {
   [[nodiscard]] std::size_t averaged() const noexcept;
   [[nodiscard]] Duration period() const noexcept;
   [[nodiscard]] emulated::DeltaTHeader header(const PingSituation& situation, Time now) const;
-  [[nodiscard]] Heard hear(std::span<const double> surfaces_m) const;
+  [[nodiscard]] Heard hear(std::span<const double> surfaces_m, double thrust_load);
+  void draw(double thrust_load, Heard& heard);
+  // The one that alters what is heard, or one of the kind kNone.
+  [[nodiscard]] Fault ping_fault() const noexcept;
   void remember(Heard heard);
   [[nodiscard]] std::vector<std::uint8_t> mean_image() const;
   [[nodiscard]] double mean_surface_m(std::size_t beam) const noexcept;
@@ -101,6 +106,7 @@ class DeltaTProgram final : public FaultyDevice {
   RandomStream repeats_;
   RandomStream spoils_;
   RandomStream foreign_;
+  PingFault ping_fault_;
   std::uint32_t number_ = 0;
   bool any_ping_ = false;
   Time next_ping_{};

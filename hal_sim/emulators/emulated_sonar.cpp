@@ -67,6 +67,7 @@ void EmulatedSonar::feel(const WorldSample& world, Time now) {
   situation.speed_m_s = std::hypot(world.surge_m_s, world.sway_m_s);
   situation.course_rad =
       wrap_to_pi(world.heading_rad + std::atan2(world.sway_m_s, world.surge_m_s));
+  situation.thrust_load = world.thrust_load;
   program_.ping(surfaces_m_, situation, now);
 }
 

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hal_sim/emulators/emulated_thrusters.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace lodesman {
 namespace {
-
-constexpr double kFullOffset = 127.0;
 
 [[nodiscard]] MaestroBoxOptions maestro_as_set(const EmulatedThrustersOptions& options) {
   MaestroBoxOptions box;
@@ -25,11 +20,6 @@ constexpr double kFullOffset = 127.0;
   box.stored_time_out_100ms = static_cast<std::uint8_t>(
       std::chrono::duration_cast<std::chrono::milliseconds>(options.time_out).count() / 100);
   return box;
-}
-
-[[nodiscard]] double load_of(std::uint8_t command) noexcept {
-  const double offset = std::min(std::abs(static_cast<double>(command) - 128.0), kFullOffset);
-  return offset * offset / (kFullOffset * kFullOffset);
 }
 
 }  // namespace
@@ -67,7 +57,7 @@ SimThrust EmulatedThrusters::output(Time now) {
     thrust = {thrust_command_of_duty(roboclaw_->duty(0)),
               thrust_command_of_duty(roboclaw_->duty(1))};
   }
-  share_ = (load_of(thrust.left) + load_of(thrust.right)) / 2.0;
+  share_ = thrust_load({thrust.left, thrust.right});
   return thrust;
 }
 

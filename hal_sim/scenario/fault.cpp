@@ -182,28 +182,37 @@ std::string fault_kinds_help() {
       "position: stall, corrupt, disconnect\n"
       "thruster: stall (takes commands and ignores them), disconnect (takes none); after either "
       "the box's own time-out stops both thrusters\n"
-      "Of devices that are emulated to the byte (loop:), with rate or value as it says:\n";
-  for_each_row([&help](const FaultRow& row) {
-    if (needs_bytes(row.kind)) {
-      help += devices_of(row) + ": " + std::string{row.name} + " (" + std::string{row.help} + ")\n";
-    }
-  });
+      "Of the echoes of a sonar, simulated or emulated (sim:, loop:), in images:\n";
+  const auto add_rows = [&help](bool of_echoes) {
+    for_each_row([&](const FaultRow& row) {
+      const bool is_of_echoes =
+          row.is_of(FaultDevice::kSonar) && alters_pings(FaultDevice::kSonar, row.kind);
+      if (row.kind > FaultKind::kDisconnect && is_of_echoes == of_echoes) {
+        help +=
+            devices_of(row) + ": " + std::string{row.name} + " (" + std::string{row.help} + ")\n";
+      }
+    });
+  };
+  add_rows(true);
+  help += "Of devices that are emulated to the byte (loop:), with rate or value as it says:\n";
+  add_rows(false);
   return help;
 }
 
 FaultSchedule::FaultSchedule(const std::vector<Fault>& faults, FaultDevice device) {
-  std::copy_if(
-      faults.begin(), faults.end(), std::back_inserter(faults_),
-      [device](const Fault& fault) { return fault.device == device && !needs_bytes(fault.kind); });
+  std::copy_if(faults.begin(), faults.end(), std::back_inserter(faults_),
+               [device](const Fault& fault) {
+                 return fault.device == device && !needs_bytes(fault.device, fault.kind);
+               });
 }
 
-FaultKind FaultSchedule::at(double scenario_time_s) const noexcept {
+Fault FaultSchedule::running(double scenario_time_s) const noexcept {
   for (const Fault& fault : faults_) {
     if (scenario_time_s >= fault.at_s && scenario_time_s < fault.at_s + fault.duration_s) {
-      return fault.kind;
+      return fault;
     }
   }
-  return FaultKind::kNone;
+  return {};
 }
 
 }  // namespace lodesman

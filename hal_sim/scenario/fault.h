@@ -21,13 +21,14 @@ enum class FaultKind : std::uint8_t {
   kStall,       // a sensor brings nothing new; the thruster box takes commands and ignores them
   kCorrupt,     // what a sensor brings fails its check; not for the thruster box
   kDisconnect,  // the device is gone
-  // From here on of devices that are emulated to the byte. Of single bytes, both ways:
+  // From here on of devices that are emulated to the byte, but for what alters_pings(). Of single
+  // bytes, both ways:
   kFlip,          // becomes another, with the chance `rate`
   kBurst,         // the same, but only in bad spells: 20 ms of them after 10 s, on the average
   kDrop,          // is lost
   kDuplicate,     // comes twice
   kInsert,        // has one before it that nobody sent
-  kInterference,  // flips and unplugging that grow with the square of the thrust
+  kInterference,  // flips and unplugging that grow with the square of the thrust; of a sonar, rays
   // Of what the device says in one go.
   kCut,   // only its beginning comes
   kLate,  // an answer comes one to three times `value` too late
@@ -67,8 +68,12 @@ enum class FaultKind : std::uint8_t {
   kBadChecksum,  // a sentence fails its check
   kNoChecksum,   // a sentence comes without its check
   kQuality,      // goes from one kind of fix to another, with `rate` a second
+  // Of what a sonar hears, beside kFrozen and kInterference.
+  kSaturated,  // everything is all but white
+  kBlinded,    // `value` degrees ahead hear nothing
+  kWeed,       // a third of the beams hear a haze at the head and nothing behind it
 };
-inline constexpr std::size_t kFaultKindCount = static_cast<std::size_t>(FaultKind::kQuality) + 1;
+inline constexpr std::size_t kFaultKindCount = static_cast<std::size_t>(FaultKind::kWeed) + 1;
 
 struct Fault {
   FaultDevice device = FaultDevice::kAhrs;
@@ -79,9 +84,16 @@ struct Fault {
   double value = 0.0;  // how much; in what, the help text says
 };
 
+// Whether it alters the echoes of a sonar, which any simulated sonar has.
+[[nodiscard]] constexpr bool alters_pings(FaultDevice device, FaultKind kind) noexcept {
+  return device == FaultDevice::kSonar &&
+         (kind == FaultKind::kFrozen || kind == FaultKind::kInterference ||
+          kind == FaultKind::kSaturated || kind == FaultKind::kBlinded || kind == FaultKind::kWeed);
+}
+
 // Whether only a device that is emulated to the byte can have it.
-[[nodiscard]] constexpr bool needs_bytes(FaultKind kind) noexcept {
-  return kind > FaultKind::kDisconnect;
+[[nodiscard]] constexpr bool needs_bytes(FaultDevice device, FaultKind kind) noexcept {
+  return kind > FaultKind::kDisconnect && !alters_pings(device, kind);
 }
 
 // As it is written: "flip".
@@ -108,7 +120,11 @@ struct ParsedFault {
 class FaultSchedule {
  public:
   FaultSchedule(const std::vector<Fault>& faults, FaultDevice device);
-  [[nodiscard]] FaultKind at(double scenario_time_s) const noexcept;
+  // The one that runs then, or one of the kind kNone.
+  [[nodiscard]] Fault running(double scenario_time_s) const noexcept;
+  [[nodiscard]] FaultKind at(double scenario_time_s) const noexcept {
+    return running(scenario_time_s).kind;
+  }
 
  private:
   std::vector<Fault> faults_;

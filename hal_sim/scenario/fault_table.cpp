@@ -155,6 +155,15 @@ constexpr std::array<FaultRow, kFaultKindCount - 1> kRows{{
      {0.2, 0.0, 10.0},
      kNoNumber,
      "rate [a second]: of changes between an ordinary fix, RTK float and RTK fixed"},
+    {FaultKind::kSaturated, "saturated", kS, kNoNumber, kNoNumber, "all echoes are all but white"},
+    {FaultKind::kBlinded,
+     "blinded",
+     kS,
+     kNoNumber,
+     {40.0, 1.0, 360.0},
+     "value [deg]: so much of the fan, ahead, hears nothing"},
+    {FaultKind::kWeed, "weed", kS, kNoNumber, kNoNumber,
+     "on a third of the head: a bright haze of 1.5 m, and nothing behind it"},
 }};
 
 // What a kind is to another device than those above.
@@ -184,6 +193,14 @@ constexpr std::array kOtherRows{
              {30.0, 0.0, 1e5},
              "rate: chance of a fix that is off by value [m], whichever way"},
     FaultRow{FaultKind::kInvalid, "invalid", kP, kNoNumber, kNoNumber, "0 N 0 E as a good fix"},
+    FaultRow{FaultKind::kFrozen, "frozen", kS, kNoNumber, kNoNumber,
+             "the same echoes again and again; numbers and times go on"},
+    FaultRow{FaultKind::kInterference,
+             "interference",
+             kS,
+             kNoNumber,
+             {120.0, 1.0, 255.0},
+             "value: how bright its rays are at full thrust, of 255; it grows with thrust squared"},
 };
 
 }  // namespace

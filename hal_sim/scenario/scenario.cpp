@@ -115,13 +115,11 @@ void require_reachable(const TomlTable& table, const Scenario& scenario) {
 [[nodiscard]] ScenarioSonar read_sonar(const TomlTable& table) {
   ScenarioSonar sonar;
   if (table.has("scene")) {
-    sonar.scene = static_cast<SonarScene>(table.choice("scene", {"obstacles", "beams"}));
+    sonar.scene =
+        static_cast<SonarScene>(table.choice("scene", {"obstacles", "beams", "detections"}));
   }
   if (table.has("noise")) {
     sonar.noise = static_cast<SonarNoise>(table.choice("noise", {"none", "tank", "sea"}));
-    if (sonar.noise != SonarNoise::kNone) {
-      table.refuse("noise", "is not simulated yet: must be none");
-    }
   }
   sonar.range_m = table.number_or("range_m", Range::between(1.0, 300.0), sonar.range_m);
   sonar.sector_rad =
@@ -130,6 +128,12 @@ void require_reachable(const TomlTable& table, const Scenario& scenario) {
   sonar.bins = static_cast<std::uint32_t>(table.integer_or("bins", 1, kMaxBins, sonar.bins));
   // At most one ping a step of the world.
   sonar.ping_hz = table.number_or("ping_hz", Range::between(0.1, 50.0), sonar.ping_hz);
+  if (table.has("detections")) {
+    if (sonar.scene != SonarScene::kDetections) {
+      table.refuse("detections", "is of scene = \"detections\" alone");
+    }
+    sonar.detections = read_detection_errors(table.table("detections"));
+  }
   return sonar;
 }
 

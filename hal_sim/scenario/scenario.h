@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/scenario/detection_errors.h"
 #include "hal_sim/scenario/fault.h"
 #include "mid_level/base/frames.h"
 #include "mid_level/base/speed_table.h"
@@ -48,19 +49,22 @@ struct ScenarioPosition {
 };
 
 enum class SonarScene : std::uint8_t {
-  kObstacles,  // the low level draws the known obstacles
-  kBeams,      // simulated echoes, segmented and tracked
+  kObstacles,   // the low level draws the known obstacles
+  kBeams,       // simulated echoes, segmented and tracked
+  kDetections,  // simulated returns, a range a beam, with errors by rate; tracked
 };
+// What the simulated sonar hears besides clean echoes: docs/sonar_simulation.md.
 enum class SonarNoise : std::uint8_t { kNone, kTank, kSea };
 
 struct ScenarioSonar {
   SonarScene scene = SonarScene::kObstacles;
-  SonarNoise noise = SonarNoise::kNone;  // only kNone is simulated so far
+  SonarNoise noise = SonarNoise::kNone;
   double range_m = 30.0;
   double sector_rad = to_rad(120.0);
   std::uint32_t beams = 120;
   std::uint32_t bins = 500;
   double ping_hz = 10.0;
+  DetectionErrors detections;  // of kDetections alone
 };
 
 struct Scenario {

@@ -4,7 +4,9 @@
 // or a Writer of its own.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 
 #include "drivers/hal/devices.h"
@@ -25,6 +27,7 @@ struct WorldSample {
   double surge_m_s = 0.0;        // [m/s] over ground, along the heading
   double sway_m_s = 0.0;         // [m/s] over ground, to starboard
   double yaw_rate_rad_s = 0.0;   // [rad/s] clockwise positive
+  double thrust_load = 0.0;      // [-] [0, 1] of the simulated thrusters, as thrust_load() has it
 
   [[nodiscard]] VehiclePose pose() const noexcept {
     return {{{x_m, y_m}}, Heading::clockwise_from_y_rad(heading_rad)};
@@ -36,7 +39,8 @@ struct WorldSample {
                       field("scenario_time_s", &W::scenario_time_s), field("x_m", &W::x_m),
                       field("y_m", &W::y_m), field("heading_rad", &W::heading_rad),
                       field("surge_m_s", &W::surge_m_s), field("sway_m_s", &W::sway_m_s),
-                      field("yaw_rate_rad_s", &W::yaw_rate_rad_s));
+                      field("yaw_rate_rad_s", &W::yaw_rate_rad_s),
+                      field("thrust_load", &W::thrust_load));
   }
 };
 
@@ -85,6 +89,17 @@ inline constexpr Duration kBoxTimeOut = std::chrono::milliseconds{1000};
 [[nodiscard]] inline ThrustCommand thrust_at(Reader<SimThrust>& box, Time now) noexcept {
   const Stamped<SimThrust>* taken = box.fresh(now, kBoxTimeOut);
   return taken == nullptr ? kNeutralThrust : ThrustCommand{taken->value.left, taken->value.right};
+}
+
+// [-] [0, 1] What the thrusters disturb others by: the mean of both commands' squares, of full
+// ones.
+[[nodiscard]] inline double thrust_load(ThrustCommand command) noexcept {
+  static constexpr double kFullOffset = 127.0;
+  const auto load_of = [](std::uint8_t one) {
+    const double offset = std::min(std::abs(static_cast<double>(one) - 128.0), kFullOffset);
+    return offset * offset / (kFullOffset * kFullOffset);
+  };
+  return (load_of(command.left) + load_of(command.right)) / 2.0;
 }
 
 }  // namespace lodesman

@@ -80,6 +80,7 @@ void WorldTask::publish_truth(Time now, ThrustCommand thrust) noexcept {
   sample.surge_m_s = truth.surge_m_s;
   sample.sway_m_s = truth.sway_m_s;
   sample.yaw_rate_rad_s = truth.yaw_rate_rad_s;
+  sample.thrust_load = thrust_load(thrust);
   // The truth first: whoever is woken by a sample may look at it.
   truth_out_->publish(truth, now);
   sample_out_.publish(sample, now);

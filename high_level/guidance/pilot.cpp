@@ -12,27 +12,11 @@ namespace {
 
 using Vec = Eigen::Vector2d;
 
-constexpr double kPassing_m = 4.0;   // an obstacle whose zone is farther off a path is not passed
 constexpr double kOutside_m = 0.02;  // a start nearer than this to a zone is put outside it
-constexpr double kSlightly_m = 0.4;  // no deeper in a zone it is beside the path, not astray
-constexpr double kBetter_m = 1.5;    // nearer to the goal by this is a better place to wait at
-constexpr int kAsksForBest = 10;     // pings on the way to one, before the goal is asked for again
-constexpr double kAtPlace_m = 0.8;   // so near to a place to wait at is there ...
-constexpr double kDrifted_m = 2.5;   // ... and so far from it no more
+constexpr double kAtPlace_m = 0.8;   // so near to a place to wait at is there
 constexpr double kClose_m = 4.0;     // so near to a goal that zones made room for it is slow
-constexpr int kFreeAsks = 10;        // pings on any way, where a line cannot be gone back to
+constexpr double kSeenEnough_m = std::numeric_limits<double>::infinity();
 constexpr double kFar_m = 0.95 * kPathReach_m;  // farther goals are asked for on the way
-
-[[nodiscard]] Vec centre_of(const Obstacle& shape) noexcept {
-  if (shape.shape == ObstacleShape::kEllipse) {
-    return {shape.centre_x_m, shape.centre_y_m};
-  }
-  Vec centre = Vec::Zero();
-  for (std::uint32_t i = 0; i < shape.vertex_count; ++i) {
-    centre += Vec{shape.vertices[i].x_m, shape.vertices[i].y_m} / shape.vertex_count;
-  }
-  return centre;
-}
 
 // A goal, or where the straight way to one that is far comes through.
 [[nodiscard]] Vec within_reach(const Vec& from, const Vec& goal) noexcept {
@@ -206,12 +190,15 @@ void Pilot::ask_for_sides(PathRequest& request) const noexcept {
   }
 }
 
-void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const VehicleState& state,
-                   Plan& plan) noexcept {
+void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const Coverage* water,
+                   const VehicleState& state, Plan& plan) noexcept {
   const PathReason reason = take_route(path);
   const OwnMotion own = when_it_takes_effect(now, state);
+  const RoutePlace place = nearest_place(route_, own.p_W, {}, 1e9);
   plan.narrow = route_is_narrow_ || (goal_is_close_ && (route_.end() - own.p_W).norm() < kClose_m);
-  const double share = plan.narrow || slowly_ ? options_.narrow_speed_share : 1.0;
+  plan.seen_ahead_m = seen_along(water, route_, place);
+  const double share = std::min(share_by_sight(plan.seen_ahead_m),
+                                plan.narrow || slowly_ ? options_.narrow_speed_share : 1.0);
   const auto& choice = chooser_.choose(now, own, route_, tracks, share, stay_at_end_);
   plan.waypoint_count = 0;
   for (std::uint32_t i = 0; i < choice.way.count && plan.waypoint_count < kMaxWaypoints; ++i) {
@@ -220,7 +207,6 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
   plan.source = WaypointSource::kCurrent;
   plan.stay_at_end = stay_at_end_;
   const bool aside = choice.manoeuvre.for_s > 0.0;
-  const RoutePlace place = nearest_place(route_, own.p_W, {}, 1e9);
   if (line_ && !aside) {
     // From abeam, not from where the boat is: else it would never be off its line.
     const Vec abeam = point_at(route_, place);
@@ -231,129 +217,52 @@ void Pilot::decide(Time now, const SonarPath& path, const Tracks& tracks, const 
   plan.steer_by = aside ? SteerBy::kCourse : SteerBy::kLine;
   plan.course_rad = wrap_to_pi(route_rad + (aside ? choice.manoeuvre.offset_rad : 0.0));
   plan.speed_share = choice.manoeuvre.speed_share;
+  if (aside && plan.speed_share > 0.0 && plan.speed_share <= 1.0) {  // what flees does not stop
+    plan.seen_ahead_m = seen_along(water, choice.way, {});
+    plan.speed_share = std::min(plan.speed_share, share_by_sight(plan.seen_ahead_m));
+  }
   const double left_m = (route_.end() - own.p_W).norm();
+  const bool held = holding_;
   holding_ = stay_at_end_ && !aside && left_m < (holding_ ? kDrifted_m : kAtPlace_m);
+  if (holding_ && !held && reason == PathReason::kNoPath) {
+    wait_here(own.p_W);
+  }
   if (holding_) {
     // It faces what it waits for, so that it sees when that is clear.
     const Vec goal = Vec{plan.goal_x_m, plan.goal_y_m} - own.p_W;
-    plan.course_rad = goal.norm() > kDrifted_m ? std::atan2(goal.x(), goal.y()) : own.heading_rad;
+    const double is_there_m =
+        reason == PathReason::kFound && !goal_moved_ ? kDrifted_m : kAtPlace_m;
+    plan.course_rad = goal.norm() > is_there_m ? std::atan2(goal.x(), goal.y()) : own.heading_rad;
   }
   explain(reason, path, choice, plan);
 }
 
-// On the way to the best point the goal itself is asked for now and then; there, always.
-bool Pilot::asks_for_best() noexcept {
-  const bool there = best_ && (*best_ - own_W_).norm() < kDrifted_m;
-  if (!best_ || there || asks_for_best_ == kAsksForBest) {
-    asks_for_best_ = 0;
-    return false;
-  }
-  ++asks_for_best_;
-  return true;
-}
-
-// Whether the best point stands that is made for already, and with it the route to it. Points round
-// a closed goal are much alike, and each look shows another one as the nearest.
-bool Pilot::keeps_best(const SonarPath& path) noexcept {
-  if (asked_for_best_) {
-    const bool led = path.reason == PathReason::kFound || path.reason == PathReason::kLimit;
-    best_ = led ? best_ : std::nullopt;
-    return false;
-  }
-  if (path.reason != PathReason::kNoPath || path.point_count == 0) {
-    best_.reset();
-    return false;
-  }
-  const PathPoint& last = path.points[path.point_count - 1];
-  const Vec goal{asked_->goal_x_m, asked_->goal_y_m};
-  const Vec nearest{last.x_m, last.y_m};
-  const bool stands = best_ && zone_clearance_m(*asked_, *best_) > -kSlightly_m &&
-                      (*best_ - goal).norm() < (nearest - goal).norm() + kBetter_m;
-  if (!stands) {
-    best_ = nearest;
-  }
-  return stands;
-}
-
-// The way that the answer shows; of a search that met its bound the way that was there before.
-PathReason Pilot::take_route(const SonarPath& path) noexcept {
-  const bool found = path.reason == PathReason::kFound;
-  if (line_ && line_->rejoins && !found && path.reason != PathReason::kLimit) {
-    return make_for_the_end_of_the_line(path.reason);
-  }
-  const bool best_kept = keeps_best(path);
-  if (path.reason == PathReason::kLimit && route_.count > 1) {
-    return path.reason;
-  }
-  if (!best_kept) {
-    make_route(path);
-  }
-  if (found) {
-    remember_sides(route_);
-    if (line_ && line_->rejoins) {
-      (void)route_.add(line_->leg.to_W);
-    }
-  }
-  route_is_narrow_ = path.narrow;
-  stay_at_end_ = stay_ || goal_moved_ || asked_for_best_ || !found;
-  return path.reason;
-}
-
-// The line cannot be gone back to where it was to be: until the next answer on the way that there
-// was, or straight, as far as the manoeuvres allow.
-PathReason Pilot::make_for_the_end_of_the_line(PathReason reason) noexcept {
-  free_asks_ = kFreeAsks;
-  if (route_.count > 1) {
-    return PathReason::kFound;
-  }
+// Where nothing leads on any place near the best one does, and to stay is better than to move about
+// for the last half metre: who waits looks at what it waits for.
+void Pilot::wait_here(const Vec& place) noexcept {
+  best_ = place;
   route_.clear();
-  (void)route_.add(own_W_);
-  (void)route_.add(line_->leg.to_W);
-  stay_at_end_ = false;
-  return reason;
+  (void)route_.add(place);
+  (void)route_.add(place);
 }
 
-void Pilot::make_route(const SonarPath& path) noexcept {
-  route_.clear();
-  const bool on_line = line_ && (line_->line.is_clear || line_->line.leave_m > line_->line.along_m);
-  (void)route_.add(on_line ? line_->leg.at(line_->line.along_m) : own_W_);
-  if (line_ && line_->line.is_clear && path.reason == PathReason::kFound) {
-    (void)route_.add({asked_->goal_x_m, asked_->goal_y_m});
-    return;
-  }
-  const bool led = path.point_count > 0;
-  for (std::uint32_t i = 0; i < path.point_count; ++i) {
-    const Vec point{path.points[i].x_m, path.points[i].y_m};
-    if ((point - route_.end()).norm() > 1e-3) {
-      (void)route_.add(point);
-    }
-  }
-  if (!led) {
-    (void)route_.add({asked_->start_x_m, asked_->start_y_m});
-  }
-  if (route_.count == 1) {
-    (void)route_.add(route_.end());
-  }
+double Pilot::seen_along(const Coverage* water, const Route& way, RoutePlace from) const noexcept {
+  const double needed_m =
+      sight_needed_m(options_.sight, options_.response.model, options_.response.cruise.speed_m_s);
+  const double seen_m =
+      water != nullptr && way.count > 1
+          ? seen_ahead_m(*water, way, from, options_.response.hull_half_beam_m, needed_m)
+          : needed_m;
+  return seen_m < needed_m ? seen_m : kSeenEnough_m;
 }
 
-// Sides are kept to as long as the path still goes by.
-void Pilot::remember_sides(const Route& route) noexcept {
-  side_count_ = 0;
-  for (std::uint32_t i = 0; i < asked_->zone_count; ++i) {
-    const Obstacle& shape = asked_->zones[i].shape;
-    const Vec centre = centre_of(shape);
-    const RoutePlace place = nearest_place(route, centre, {}, 1e9);
-    const bool at_start = place.leg == 0 && place.share <= 0.0;
-    const bool at_end = place.leg + 2 >= route.count && place.share >= 1.0;
-    const Vec there = point_at(route, place);
-    if (shape.id == 0 || at_start || at_end || edge_distance_m(shape, {there}) > kPassing_m) {
-      continue;
-    }
-    const Vec along = route.points[place.leg + 1] - route.points[place.leg];
-    const Vec across = centre - there;
-    const double to_port = along.x() * across.y() - along.y() * across.x();
-    sides_[side_count_++] = {shape.id, to_port > 0.0 ? Side::kPort : Side::kStarboard};
-  }
+// [-] of the mission's speed, that so much of the way allows.
+double Pilot::share_by_sight(double seen_m) const noexcept {
+  const double most_m_s = options_.response.cruise.speed_m_s;
+  return most_m_s > 0.0
+             ? speed_by_sight_m_s(options_.sight, options_.response.model, seen_m, most_m_s) /
+                   most_m_s
+             : 1.0;
 }
 
 void Pilot::explain(PathReason reason, const SonarPath& path,
@@ -369,6 +278,7 @@ void Pilot::explain(PathReason reason, const SonarPath& path,
   plan.cause = cause.least_track;
   plan.clearance_m = cause.least_clearance_m;
   plan.clearance_after_s = cause.least_after_s;
+  const bool must_slow = plan.narrow || slowly_ || plan.seen_ahead_m < kSeenEnough_m;
   const double full_share = plan.narrow || slowly_ ? options_.narrow_speed_share : 1.0;
   const bool aside = manoeuvre.for_s > 0.0;
   if (aside && manoeuvre.speed_share <= 0.0) {
@@ -386,7 +296,7 @@ void Pilot::explain(PathReason reason, const SonarPath& path,
   } else if (goal_moved_) {
     plan.rung = PlanRung::kNearGoal;
   } else {
-    plan.rung = plan.narrow || slowly_ ? PlanRung::kSlow : PlanRung::kOnRoute;
+    plan.rung = must_slow ? PlanRung::kSlow : PlanRung::kOnRoute;
   }
 }
 

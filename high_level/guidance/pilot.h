@@ -11,8 +11,10 @@
 
 #include "high_level/guidance/line.h"
 #include "high_level/guidance/manoeuvre.h"
+#include "high_level/guidance/sight_speed.h"
 #include "high_level/guidance/zones.h"
 #include "mid_level/messages/command.h"
+#include "mid_level/messages/coverage.h"
 #include "mid_level/messages/mission.h"
 #include "mid_level/messages/vehicle.h"
 
@@ -22,6 +24,7 @@ struct PilotOptions {
   ZoneOptions zones;
   VehicleResponse response;
   ManoeuvreOptions manoeuvres;
+  SightSpeedOptions sight;
   double look_ahead_s = 0.0;        // [s] of the response's look-ahead, what comes with speed
   double side_gain_m = 0.0;         // [m] what another side must save
   double narrow_speed_share = 0.0;  // [-] (0, 1] in water that is too narrow for full zones
@@ -56,11 +59,15 @@ class Pilot {
   void ask(Time now, const Tracks& tracks, const VehicleState& state,
            const Destination& destination, PathRequest& request) noexcept;
 
-  // The plan made of the answer to the last request; fills in what the pilot decides.
-  void decide(Time now, const SonarPath& path, const Tracks& tracks, const VehicleState& state,
-              Plan& plan) noexcept;
+  // The plan made of the answer to the last request; fills in what the pilot decides. water: what
+  // was seen of it; null: all of it is known.
+  void decide(Time now, const SonarPath& path, const Tracks& tracks, const Coverage* water,
+              const VehicleState& state, Plan& plan) noexcept;
 
  private:
+  static constexpr double kSlightly_m = 0.4;  // no deeper in a zone: beside the path, not astray
+  static constexpr double kDrifted_m = 2.5;   // so far from a place to wait at is there no more
+
   enum class Side : std::uint8_t { kNone, kPort, kStarboard };
   struct KeptSide {
     std::uint32_t track = 0;
@@ -85,8 +92,13 @@ class Pilot {
   [[nodiscard]] PathReason take_route(const SonarPath& path) noexcept;
   [[nodiscard]] PathReason make_for_the_end_of_the_line(PathReason reason) noexcept;
   void make_route(const SonarPath& path) noexcept;
+  void wait_here(const Eigen::Vector2d& place) noexcept;
   [[nodiscard]] bool asks_for_best() noexcept;
   [[nodiscard]] bool keeps_best(const SonarPath& path) noexcept;
+  // [m] of a way ahead; infinity: as much as the mission's speed needs.
+  [[nodiscard]] double seen_along(const Coverage* water, const Route& way,
+                                  RoutePlace from) const noexcept;
+  [[nodiscard]] double share_by_sight(double seen_m) const noexcept;
   void explain(PathReason reason, const SonarPath& path, const ManoeuvreChooser::Choice& choice,
                Plan& plan) const noexcept;
 

@@ -154,13 +154,13 @@ const Plan* Replanner::answer(Time now, const SonarPath& path) noexcept {
 }
 
 const Plan* Replanner::answer(Time now, const SonarPath& path, const Tracks& tracks,
-                              const VehicleState& state) noexcept {
+                              const Coverage* water, const VehicleState& state) noexcept {
   if (!pilot_ || !pending_ || path.request != pending_->id) {
     return nullptr;
   }
   const Pending pending = take_answer(now);
   describe(pending, path.reason);
-  pilot_->decide(now, path, tracks, state, plan_);
+  pilot_->decide(now, path, tracks, water, state, plan_);
   if (pending.sight != Sight::kNew) {
     plan_.lost_since = pending.captured;
   }

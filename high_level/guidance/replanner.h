@@ -55,11 +55,12 @@ class Replanner {
 
   // The same in the world, for what is known at this frame, which came at `seen`. Where no other
   // has come for too long, again for what is remembered: slower at first, then to where it stops.
+  // water: what was seen of it; null: all of it is known.
   [[nodiscard]] const PathRequest* request(Time now, const Tracks& tracks, Time seen,
                                            const VehicleState& state,
                                            const Destination& destination) noexcept;
   [[nodiscard]] const Plan* answer(Time now, const SonarPath& path, const Tracks& tracks,
-                                   const VehicleState& state) noexcept;
+                                   const Coverage* water, const VehicleState& state) noexcept;
 
   // Steps 11-12 for the answer to the pending request; nothing for any other answer.
   [[nodiscard]] const Plan* answer(Time now, const SonarPath& path) noexcept;

@@ -55,6 +55,9 @@ void BoatStatus::add_to(ordered_json& reply, Time now) {
       reply["not_ready"] = readiness_.reasons(now);
     }
   }
+  if (std::vector<std::string> warnings = readiness_.warnings(); !warnings.empty()) {
+    reply["warnings"] = std::move(warnings);
+  }
   add_thrust(reply, now);
   add_guard(reply, now);
   add_place(reply, now);
@@ -117,6 +120,9 @@ void BoatStatus::add_place(ordered_json& reply, Time now) {
                      {"rung", to_string(plan->value.rung)},
                      {"waypoints", to_string(plan->value.source)},
                      {"age_s", to_seconds(now - plan->stamp)}};
+    if (std::isfinite(plan->value.seen_ahead_m)) {
+      reply["plan"]["seen_ahead_m"] = plan->value.seen_ahead_m;
+    }
   }
   if (const auto* helm = helm_.latest(); helm != nullptr) {
     reply["helm"] = to_string(helm->value.reason);

@@ -6,36 +6,13 @@
 #include <utility>
 
 #include "high_level/guidance/areas.h"
+#include "high_level/tasks/desk_replies.h"
 #include "high_level/tasks/tuning.h"
 
 namespace lodesman {
 namespace {
 
 using nlohmann::ordered_json;
-
-[[nodiscard]] std::string done(MissionState state) {
-  return ordered_json{{"ok", true}, {"state", to_string(state)}}.dump();
-}
-
-[[nodiscard]] std::string not_confirmed(const std::string& reason) {
-  return ordered_json{{"ok", false}, {"error", "not confirmed: " + reason}, {"confirmed", false}}
-      .dump();
-}
-
-[[nodiscard]] std::string reply_of(OrderAnswer answer, MissionState state) {
-  switch (answer) {
-    case OrderAnswer::kObeyed: return done(state);
-    case OrderAnswer::kNotUnderWay:
-      return refusal(std::string{"not under way but "} + to_string(state));
-    case OrderAnswer::kNotHolding:
-      return refusal(std::string{"not holding but "} + to_string(state));
-    case OrderAnswer::kAborted: return refusal("an abort came first");
-    case OrderAnswer::kNoMission: return refusal("there is no mission: give one");
-    case OrderAnswer::kTooOld:
-    case OrderAnswer::kNone: break;
-  }
-  return not_confirmed("the mission did not take it up in time");
-}
 
 [[nodiscard]] OperatorOrder order_of(const std::string& command) noexcept {
   return command == "start"    ? OperatorOrder::kStart
@@ -146,6 +123,10 @@ std::string OperatorDesk::objections(const MissionDefinition& mission) {
     text += (text.empty() ? "not ready: " : "; ") + reason;
   }
   return text;
+}
+
+std::vector<std::string> OperatorDesk::warnings_for(OperatorOrder order) {
+  return order == OperatorOrder::kStart ? readiness_.warnings() : std::vector<std::string>{};
 }
 
 const Stamped<MissionStatus>* OperatorDesk::fresh_mission(Time now) {
@@ -337,7 +318,7 @@ std::optional<std::string> OperatorDesk::reply_to(Order& order) {
   const Time now = now_();
   const Answered& answered = answered_[order.sequence % answered_.size()];
   if (order.sequence != 0 && answered.sequence == order.sequence) {
-    return reply_of(answered.answer, answered.state);
+    return reply_of(answered.answer, answered.state, warnings_for(order.order));
   }
   if (now - order.given > kOrderPatience) {
     return not_confirmed("the mission does not answer");
@@ -364,7 +345,8 @@ std::optional<std::string> OperatorDesk::take_turn(Order& order, const MissionSt
     if (ruling.answer == OrderAnswer::kObeyed && order.order == OperatorOrder::kStart) {
       thrust_.make_way();
     }
-    return reply_of(ruling.answer, mission.state);  // nothing to change: nothing to publish
+    return reply_of(ruling.answer, mission.state,
+                    warnings_for(order.order));  // nothing to change: nothing to publish
   }
   publish(order);
   return std::nullopt;

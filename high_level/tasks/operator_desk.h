@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "high_level/mission/command_line.h"
 #include "high_level/mission/commander.h"
@@ -77,6 +78,8 @@ class OperatorDesk {
   [[nodiscard]] const LocalFrame& frame();
   // Every reason against a start now, in words; empty where there is none.
   [[nodiscard]] std::string objections(const MissionDefinition& mission);
+  // What whoever gives such an order is told though it is obeyed.
+  [[nodiscard]] std::vector<std::string> warnings_for(OperatorOrder order);
   void require_possible(const MissionDefinition& mission) const;
   void lay_out(const MissionDefinition& mission);
   [[nodiscard]] const MissionDefinition* at_hand();

@@ -8,7 +8,6 @@
 #include "high_level/guidance/areas.h"
 
 namespace lodesman {
-
 namespace {
 
 constexpr double kStay_m = 1.5;  // a place to wait at is kept within this
@@ -56,6 +55,7 @@ PlannerTask::PlannerTask(Blackboard& board, Role role, PlannerOptions options)
       vehicle_state_{board.vehicle_state},
       obstacles_{board.sonar_obstacles},
       tracks_{board.tracks},
+      coverage_{board.coverage},
       sonar_path_{board.sonar_path},
       attitude_{board.attitude},
       position_fix_{board.position_fix},
@@ -298,7 +298,7 @@ void PlannerTask::replan_in_world(Time now) noexcept {
   }
   const Tracks& water = with_areas(tracks->value, state->value, now);
   if (const auto* path = sonar_path_.latest(); path != nullptr) {
-    publish(replanner_.answer(now, path->value, water, state->value), now);
+    publish(replanner_.answer(now, path->value, water, seen_water(), state->value), now);
   }
   const Destination there{mission_.goal(), mission_.holding(), leg()};
   const auto* request = replanner_.request(now, water, tracks->stamp, state->value, there);

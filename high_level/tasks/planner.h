@@ -28,8 +28,8 @@ class PlannerTask final : public Task {
   void step(Time now) noexcept override;
   [[nodiscard]] std::uint64_t refused() const noexcept override {
     return refused_by(definitions_, orders_, link_, tunables_, vehicle_state_, obstacles_, tracks_,
-                      sonar_path_, attitude_, position_fix_, plan_, helm_, thrust_applied_,
-                      thrust_status_);
+                      coverage_, sonar_path_, attitude_, position_fix_, plan_, helm_,
+                      thrust_applied_, thrust_status_);
   }
   [[nodiscard]] std::span<ChannelLook<>* const> inputs() noexcept override { return inputs_; }
 
@@ -50,6 +50,11 @@ class PlannerTask final : public Task {
   // What is known of the water: the tracks, and the mission's areas as walls.
   [[nodiscard]] const Tracks& with_areas(const Tracks& tracks, const VehicleState& own,
                                          Time now) noexcept;
+  // What was seen of it; null: all of it is known.
+  [[nodiscard]] const Coverage* seen_water() noexcept {
+    const auto* newest = coverage_.latest();
+    return newest != nullptr ? &newest->value : nullptr;
+  }
   void replan(Time now) noexcept;
   void replan_in_view(Time now) noexcept;
   void replan_in_world(Time now) noexcept;
@@ -89,6 +94,7 @@ class PlannerTask final : public Task {
   Reader<VehicleState> vehicle_state_;
   Reader<SonarObstacles> obstacles_;
   Reader<Tracks> tracks_;
+  Reader<Coverage> coverage_;
   Reader<SonarPath> sonar_path_;
   Reader<Attitude> attitude_;
   Reader<PositionFix> position_fix_;
@@ -97,10 +103,10 @@ class PlannerTask final : public Task {
   Reader<HelmCommand> helm_;
   Reader<ThrustApplied> thrust_applied_;
   Reader<ThrustStatus> thrust_status_;
-  std::array<ChannelLook<>*, 13> inputs_{
-      &definitions_,  &orders_,         &link_,         &tunables_, &attitude_,
-      &position_fix_, &vehicle_state_,  &obstacles_,    &tracks_,   &sonar_path_,
-      &helm_,         &thrust_applied_, &thrust_status_};
+  std::array<ChannelLook<>*, 14> inputs_{
+      &definitions_,  &orders_,        &link_,           &tunables_,     &attitude_,
+      &position_fix_, &vehicle_state_, &obstacles_,      &tracks_,       &coverage_,
+      &sonar_path_,   &helm_,          &thrust_applied_, &thrust_status_};
   Writer<PathRequest> requests_;
   Writer<Plan> plans_;
   Writer<MissionStatus> statuses_;

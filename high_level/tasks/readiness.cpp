@@ -7,6 +7,15 @@
 #include "high_level/tasks/thrust_desk.h"
 
 namespace lodesman {
+namespace {
+
+// Pings that come and show nothing: not even what was seen before goes on to be looked at.
+[[nodiscard]] bool shows_nothing(DeviceFault fault) noexcept {
+  return fault == DeviceFault::kSaturated || fault == DeviceFault::kFrozen ||
+         fault == DeviceFault::kDeaf;
+}
+
+}  // namespace
 
 Readiness::Readiness(const Blackboard& board, bool arms_by_itself)
     : arms_by_itself_{arms_by_itself},
@@ -40,10 +49,33 @@ std::vector<std::string> Readiness::reasons(Time now) {
   if (state_.fresh(now, max_age::kVehicleState) == nullptr) {
     reasons.push_back(lacking("position", DeviceId::kPosition, now));
   }
-  if (obstacles_.fresh(now, max_age::kSonarFrame) == nullptr) {
+  add_sonar(reasons, now);
+  return reasons;
+}
+
+std::vector<std::string> Readiness::warnings() {
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < kDeviceCount; ++i) {
+    const auto id = static_cast<DeviceId>(i);
+    const auto* health = device(id);
+    if (health != nullptr && health->value.status == DeviceStatus::kWorking &&
+        health->value.fault != DeviceFault::kNone) {
+      warnings.push_back(std::string{to_string(id)} + ": " + describe(health->value.fault));
+    }
+  }
+  return warnings;
+}
+
+// It shows nothing from when that is known on, though its last frame may be fresh for a while.
+void Readiness::add_sonar(std::vector<std::string>& reasons, Time now) {
+  const auto* health = device(DeviceId::kSonar);
+  if (health != nullptr && health->value.status == DeviceStatus::kWorking &&
+      shows_nothing(health->value.fault)) {
+    reasons.push_back(std::string{"the sonar shows nothing of the water: "} +
+                      describe(health->value.fault));
+  } else if (obstacles_.fresh(now, max_age::kSonarFrame) == nullptr) {
     reasons.push_back(lacking("sonar frame", DeviceId::kSonar, now));
   }
-  return reasons;
 }
 
 // A boat that has no thrusters sails dry: that is no reason.

@@ -18,6 +18,9 @@ class Readiness {
 
   // Every reason not to start at `now`; none: it may.
   [[nodiscard]] std::vector<std::string> reasons(Time now);
+  // What ails devices that work nevertheless, each with its name: it may start, and whoever starts
+  // it is told.
+  [[nodiscard]] std::vector<std::string> warnings();
   // The newest of a device; nullptr before the first.
   [[nodiscard]] const Stamped<DeviceHealth>* device(DeviceId device) {
     return devices_[static_cast<std::size_t>(device)].latest();
@@ -27,6 +30,7 @@ class Readiness {
   // "no heading", and what its device says of it.
   [[nodiscard]] std::string lacking(const char* what, DeviceId device, Time now);
   void add_thrust(std::vector<std::string>& reasons, Time now);
+  void add_sonar(std::vector<std::string>& reasons, Time now);
 
   bool arms_by_itself_;
 

@@ -63,15 +63,23 @@ void BlobObstacles::add(const PolarGrid& grid, std::span<std::uint32_t> cells,
     }
     // A piece without an echo of its own is but the smoothing's fringe of the piece beside it.
     if (piece.splits == 0 || peak >= strength.least) {
-      keep_nearest({ellipse, static_cast<double>(peak)});
+      Obstacle shape;
+      put_ellipse(ellipse, shape);
+      add(shape, ellipse.nearest_m, static_cast<double>(peak));
     }
   }
 }
 
+void BlobObstacles::add(const Obstacle& shape, double nearest_m, double peak) noexcept {
+  Found found{nearest_m, shape};
+  found.obstacle.protection_first_m = shape.semi_axis_first_m + margin_m_;
+  found.obstacle.protection_second_m = shape.semi_axis_second_m + margin_m_;
+  found.obstacle.peak = peak;
+  keep_nearest(found);
+}
+
 void BlobObstacles::keep_nearest(const Found& found) noexcept {
-  const auto nearer = [](const Found& a, const Found& b) {
-    return a.ellipse.nearest_m < b.ellipse.nearest_m;
-  };
+  const auto nearer = [](const Found& a, const Found& b) { return a.nearest_m < b.nearest_m; };
   if (found_count_ == kMaxObstacles) {
     ++dropped_;
     if (!nearer(found, found_[0])) {
@@ -85,17 +93,10 @@ void BlobObstacles::keep_nearest(const Found& found) noexcept {
 }
 
 void BlobObstacles::write(SonarObstacles& out) noexcept {
-  std::sort(found_.begin(), found_.begin() + found_count_, [](const Found& a, const Found& b) {
-    return a.ellipse.nearest_m < b.ellipse.nearest_m;
-  });
+  std::sort(found_.begin(), found_.begin() + found_count_,
+            [](const Found& a, const Found& b) { return a.nearest_m < b.nearest_m; });
   for (std::uint32_t i = 0; i < found_count_; ++i) {
-    const BlobEllipse& e = found_[i].ellipse;
-    Obstacle& obstacle = out.obstacles[i];
-    obstacle = Obstacle{};
-    put_ellipse(e, obstacle);
-    obstacle.protection_first_m = e.first_m + margin_m_;
-    obstacle.protection_second_m = e.second_m + margin_m_;
-    obstacle.peak = found_[i].peak;
+    out.obstacles[i] = found_[i].obstacle;
   }
   out.count = found_count_;
   out.dropped = dropped_;

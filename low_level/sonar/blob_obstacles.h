@@ -28,13 +28,15 @@ class BlobObstacles {
   // At least one cell of the grid. Reorders them.
   void add(const PolarGrid& grid, std::span<std::uint32_t> cells,
            const BlobStrength& strength) noexcept;
+  // One that is no blob, with nothing but its shape.
+  void add(const Obstacle& shape, double nearest_m, double peak) noexcept;
   // Nearest first; of more than kMaxObstacles the farthest were dropped, and counted.
   void write(SonarObstacles& out) noexcept;
 
  private:
   struct Found {
-    BlobEllipse ellipse;
-    double peak = 0.0;
+    double nearest_m = 0.0;
+    Obstacle obstacle;
   };
 
   [[nodiscard]] bool must_split(const BlobEllipse& ellipse) const noexcept;

@@ -9,12 +9,6 @@
 #include "low_level/sonar/ping_check.h"
 
 namespace lodesman {
-namespace {
-
-// Of the range setting: with a shorter one the head sends shorter pulses.
-constexpr double kMostRingDown = 0.25;
-
-}  // namespace
 
 ContrastDetector::ContrastDetector(const SegmentationOptions& options)
     : options_{options}, outline_{options.max_obstacle_length_m} {}
@@ -30,8 +24,8 @@ void ContrastDetector::detect(const SonarPing& ping, SonarObstacles& out) noexce
   }
   plane_.set(ping);
   set_grid(ping);
-  const double ring_down_m = std::min(options_.min_range_m, kMostRingDown * ping.range_m);
-  const double nearest = std::ceil(ring_down_m / grid_.bin_depth_m - 0.5);
+  const double nearest =
+      std::ceil(heard_from_m(options_.min_range_m, ping.range_m) / grid_.bin_depth_m - 0.5);
   const auto from = static_cast<std::uint32_t>(
       std::clamp(nearest, 0.0, static_cast<double>(plane_.layout().bins)));
   levels_.learn(plane_, options_.contrast, ping.sector_rad);

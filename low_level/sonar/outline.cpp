@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "low_level/sonar/thin_line.h"
+
 namespace lodesman {
 namespace {
 
@@ -11,68 +13,6 @@ namespace {
 constexpr double kBlurBins = (kSmoothBins - 1) / 3.0;
 constexpr std::uint32_t kSideVertices = kMaxVertices / 2;
 constexpr double kEnclosedFraction = 0.95;  // of a small echo's area that its ellipse holds
-
-double distance_m(const Vertex& p, const Vertex& a, const Vertex& b) noexcept {
-  const double along_x = b.x_m - a.x_m;
-  const double along_y = b.y_m - a.y_m;
-  const double length = std::hypot(along_x, along_y);
-  if (length <= 0.0) {
-    return std::hypot(p.x_m - a.x_m, p.y_m - a.y_m);
-  }
-  return std::abs(along_x * (p.y_m - a.y_m) - along_y * (p.x_m - a.x_m)) / length;
-}
-
-// Marks the points that a line within the tolerance needs (Ramer, Douglas and Peucker), ends
-// included, and gives their number.
-std::uint32_t mark_needed(std::span<const Vertex> line, double tolerance_m,
-                          std::span<bool> needed) noexcept {
-  struct Part {
-    std::uint32_t from;
-    std::uint32_t to;
-  };
-  std::array<Part, EchoPlane::kMaxAcross + 2> parts{};
-  std::size_t waiting = 0;
-  const auto last = static_cast<std::uint32_t>(line.size() - 1);
-  std::fill(needed.begin(), needed.end(), false);
-  needed.front() = needed.back() = true;
-  std::uint32_t count = last > 0 ? 2 : 1;
-  parts[waiting++] = {0, last};
-  while (waiting > 0) {
-    const Part part = parts[--waiting];
-    double worst_m = tolerance_m;
-    std::uint32_t worst = part.from;
-    for (std::uint32_t i = part.from + 1; i < part.to; ++i) {
-      const double off_m = distance_m(line[i], line[part.from], line[part.to]);
-      if (off_m > worst_m) {
-        worst_m = off_m;
-        worst = i;
-      }
-    }
-    if (worst > part.from) {
-      needed[worst] = true;
-      ++count;
-      parts[waiting++] = {part.from, worst};
-      parts[waiting++] = {worst, part.to};
-    }
-  }
-  return count;
-}
-
-// In place; gives how many are left.
-std::uint32_t thin_out(std::span<Vertex> line, double tolerance_m, std::uint32_t most) noexcept {
-  std::array<bool, EchoPlane::kMaxAcross + 2> needed{};
-  const std::span<bool> marks = std::span{needed}.first(line.size());
-  while (mark_needed(line, tolerance_m, marks) > most) {
-    tolerance_m *= 1.5;
-  }
-  std::uint32_t kept = 0;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (marks[i]) {
-      line[kept++] = line[i];
-    }
-  }
-  return kept;
-}
 
 // The area's middle; of one that has none, the vertices'.
 Vertex middle_of(std::span<const Vertex> corners) noexcept {

@@ -77,10 +77,47 @@ void ProfileDetector::take_runs(const SonarPing& ping) noexcept {
 
 void ProfileDetector::end_run() noexcept {
   if (cells_.size() >= options_.profile.min_points) {
-    fill_far_side();
-    blobs_.add(grid_, cells_, {strength_, kBins, 0.0});
+    if (options_.method == DetectionMethod::kContrast && is_long()) {
+      add_line();
+    } else {
+      fill_far_side();
+      blobs_.add(grid_, cells_, {strength_, kBins, 0.0});
+    }
   }
   cells_.clear();
+}
+
+// As long in range or across as is no ellipse of an image either.
+bool ProfileDetector::is_long() const noexcept {
+  const auto [near, far] =
+      std::minmax_element(cells_.begin(), cells_.end(),
+                          [](std::uint32_t a, std::uint32_t b) { return a % kBins < b % kBins; });
+  const double deep_m = (*far % kBins - *near % kBins) * grid_.bin_depth_m;
+  const std::uint32_t beams = cells_.back() / kBins - cells_.front() / kBins;
+  const double wide_m = grid_.place(*far).range_m * grid_.beam_width_rad * beams;
+  return std::max(deep_m, wide_m) >= options_.max_obstacle_length_m;
+}
+
+// Its pieces would slide along a wall as the boat does, and be taken for what moves.
+void ProfileDetector::add_line() noexcept {
+  double nearest_m = grid_.place(cells_.front()).range_m;
+  std::uint8_t peak = 0;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const PolarGrid::Place at = grid_.place(cells_[i]);
+    line_[i] = {at.x_m(), at.y_m()};
+    nearest_m = std::min(nearest_m, at.range_m);
+    peak = std::max(peak, strength_[cells_[i] / kBins]);
+  }
+  const std::span<Vertex> line = std::span{line_}.first(cells_.size());
+  Obstacle wall;
+  wall.shape = ObstacleShape::kPolyline;
+  wall.vertex_count = thin_out(line, grid_.echo_depth_m, kMaxVertices);
+  std::copy_n(line_.begin(), wall.vertex_count, wall.vertices.begin());
+  for (const Vertex& vertex : std::span{wall.vertices}.first(wall.vertex_count)) {
+    wall.centre_x_m += vertex.x_m / wall.vertex_count;
+    wall.centre_y_m += vertex.y_m / wall.vertex_count;
+  }
+  blobs_.add(wall, nearest_m, static_cast<double>(peak));
 }
 
 void ProfileDetector::fill_far_side() noexcept {

@@ -2,15 +2,18 @@
 // Obstacles from a profile: a range a beam. Returns of beams side by side belong to one surface
 // where they are no farther apart than those of a surface that is met at the least incidence, with
 // three standard deviations of their noise (the adaptive breakpoint detector of Borges and Aldon,
-// 2004, equation 5) and a step of the head's ranges; each such run is a blob. A profile has the
-// near side alone: of a short run that bulges towards the head the far side is taken to lie as far
-// behind the line between its ends as the near side lies before it, so that a round stone is one
-// ellipse, and not one a flank. One thread; allocates nothing once made.
+// 2004, equation 5) and a step of the head's ranges. By contrast a long run is a line along its
+// returns; any other is a blob. A profile has the near side alone: of a short run that bulges
+// towards the head the far side is taken to lie as far behind the line between its ends as the near
+// side lies before it, so that a round stone is one ellipse, and not one a flank. One thread;
+// allocates nothing once made.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "low_level/sonar/blob_obstacles.h"
+#include "low_level/sonar/thin_line.h"
 
 namespace lodesman {
 
@@ -25,6 +28,8 @@ class ProfileDetector {
  private:
   void take_runs(const SonarPing& ping) noexcept;
   void end_run() noexcept;
+  [[nodiscard]] bool is_long() const noexcept;
+  void add_line() noexcept;
   void fill_far_side() noexcept;
   [[nodiscard]] bool fill_beam(std::uint32_t cell, double chord_m) noexcept;
   [[nodiscard]] bool is_return(const SonarPing& ping, std::uint32_t beam) const noexcept;
@@ -36,6 +41,7 @@ class ProfileDetector {
   PolarGrid grid_;
   std::vector<std::uint8_t> strength_;  // of each beam
   std::vector<std::uint32_t> cells_;    // of the run at hand
+  std::array<Vertex, kMostLinePoints> line_{};
 };
 
 }  // namespace lodesman

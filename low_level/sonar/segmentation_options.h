@@ -2,6 +2,7 @@
 // How obstacles are found in pings: every value of [segmentation]. Plain data; any thread.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "mid_level/messages/sonar.h"
@@ -61,5 +62,12 @@ struct SegmentationOptions {
   ContrastOptions contrast;
   ProfileOptions profile;
 };
+
+// [m] From where on anything is heard at that range setting: with a shorter one the head sends
+// shorter pulses, and its ring-down is over sooner than at min_range_m.
+[[nodiscard]] inline double heard_from_m(double min_range_m, double range_m) noexcept {
+  constexpr double kMostRingDown = 0.25;  // [-] of the range setting
+  return std::min(min_range_m, kMostRingDown * range_m);
+}
 
 }  // namespace lodesman

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "low_level/sonar/known_obstacles.h"
+#include "low_level/tracking/seen_water.h"
 #include "mid_level/geometry/moving_obstacle.h"
 
 namespace lodesman {
@@ -12,6 +13,19 @@ namespace {
 // A ping and the attitude of its time come together, so that the estimate comes a moment later.
 // Without it so long after the ping, the newest one does.
 constexpr Duration kEstimatePatience = std::chrono::milliseconds{10};
+
+[[nodiscard]] DeviceFault fault_of(PingTrouble trouble) noexcept {
+  switch (trouble) {
+    case PingTrouble::kNone: break;
+    case PingTrouble::kSaturated: return DeviceFault::kSaturated;
+    case PingTrouble::kFrozen: return DeviceFault::kFrozen;
+    case PingTrouble::kDeaf: return DeviceFault::kDeaf;
+    case PingTrouble::kWeed: return DeviceFault::kWeed;
+    case PingTrouble::kBlindSector: return DeviceFault::kBlindSector;
+    case PingTrouble::kInterference: return DeviceFault::kInterference;
+  }
+  return DeviceFault::kNone;
+}
 
 void move_tracks(Tracks& tracks, const Eigen::Vector2d& by_m) noexcept {
   for (Track& track : std::span{tracks.tracks}.first(tracks.count)) {
@@ -30,6 +44,7 @@ DeltaTTask::DeltaTTask(Blackboard& board, Role role, ImagingSonar& sonar, DeltaT
       mission_status_{board.mission_status},
       pings_{writer_of(board, board.sonar_ping, role)},
       obstacles_{writer_of(board, board.sonar_obstacles, role)},
+      coverage_{writer_of(board, board.coverage, role)},
       tracks_{writer_of(board, board.tracks, role)},
       tracks_before_{board.tracks},
       device_{board, role, DeviceId::kSonar, max_age::kSonarFrame} {
@@ -62,12 +77,27 @@ bool DeltaTTask::take_ping(Time now) noexcept {
   const ReadStatus status = sonar_.poll(now, *ping_);
   const bool believed = status == ReadStatus::kFresh && sane(*ping_) && ping_->captured <= now;
   device_.keeper().polled(status, believed, now);
-  device_.keeper().ails(sonar_.fault());
-  if (!believed) {
-    return false;
+  const bool is_news = believed && tells_of_water();
+  device_.keeper().ails(ailment());
+  if (believed) {
+    pings_.publish(*ping_, now);
   }
-  pings_.publish(*ping_, now);
-  return true;
+  return is_news;
+}
+
+bool DeltaTTask::tells_of_water() noexcept {
+  if (options_.known_scene) {
+    return true;
+  }
+  watch_.look(*ping_);
+  return watch_.tells_of_water();
+}
+
+// What its pings show is the graver as long as they come, and is past once they do not.
+DeviceFault DeltaTTask::ailment() noexcept {
+  const bool pings_come = device_.keeper().health().status == DeviceStatus::kWorking;
+  const DeviceFault by_pings = pings_come ? fault_of(watch_.trouble()) : DeviceFault::kNone;
+  return by_pings != DeviceFault::kNone ? by_pings : sonar_.fault();
 }
 
 bool DeltaTTask::awaits_estimate(Time now) noexcept {
@@ -92,6 +122,9 @@ void DeltaTTask::publish_what_it_shows(Time now) noexcept {
   }
   obstacles_.publish(*seen_, now);
   if (tracked) {
+    if (tracker_) {
+      coverage_.publish(*water_, now);  // before what wakes its reader
+    }
     tracks_.publish(*known_, now);
   }
 }
@@ -108,9 +141,19 @@ bool DeltaTTask::track_echoes(Time now) noexcept {
   const VehiclePose head{then->to_world({{mounting.x_m, mounting.y_m}}),
                          Heading::clockwise_from_y_rad(then->heading.rad() + mounting.turn_rad)};
   resume_tracks(head);
-  tracker_->see(*ping_, *seen_, head, *known_);
-  move_tracks(*known_, poses_.world_from_odometry_m());
+  tracker_->see(*ping_, *seen_, head, *known_, watch_.blind());
+  describe_water(tracker_->water(), head.p_WV.xy_m, to_seconds(ping_->captured.time_since_epoch()),
+                 heard_from_m(options_.segmentation.min_range_m, ping_->range_m), *water_);
+  water_->frame = ping_->number;
+  water_->captured = ping_->captured;
+  move_to_world(poses_.world_from_odometry_m());
   return true;
+}
+
+void DeltaTTask::move_to_world(const Eigen::Vector2d& from_odometry_m) noexcept {
+  move_tracks(*known_, from_odometry_m);
+  water_->west_x_m += from_odometry_m.x();
+  water_->south_y_m += from_odometry_m.y();
 }
 
 void DeltaTTask::resume_tracks(const VehiclePose& head) noexcept {

@@ -13,6 +13,7 @@
 #include "drivers/hal/devices.h"
 #include "low_level/sonar/detector.h"
 #include "low_level/sonar/mounting.h"
+#include "low_level/sonar/ping_watch.h"
 #include "low_level/sonar/protection.h"
 #include "low_level/sonar/track_oracle.h"
 #include "low_level/tasks/device_report.h"
@@ -42,8 +43,13 @@ class DeltaTTask final : public Task {
   [[nodiscard]] std::span<ChannelLook<>* const> inputs() noexcept override { return inputs_; }
 
  private:
-  // Whether there is a new ping that can be believed.
+  // Whether there is a new ping that can be believed and tells of the water.
   [[nodiscard]] bool take_ping(Time now) noexcept;
+  // Whether a ping that was published tells of the water, as far as that matters: a known scene
+  // needs no echoes.
+  [[nodiscard]] bool tells_of_water() noexcept;
+  // What its pings show or its driver says.
+  [[nodiscard]] DeviceFault ailment() noexcept;
   // Whether the estimate of the ping's own time is about to come.
   [[nodiscard]] bool awaits_estimate(Time now) noexcept;
   void publish_what_it_shows(Time now) noexcept;
@@ -52,11 +58,13 @@ class DeltaTTask final : public Task {
   // Obstacles in the head's frame to tracks, by the odometry at the time of the ping; false when
   // the estimate is stale or that time is not remembered.
   [[nodiscard]] bool track_echoes(Time now) noexcept;
+  void move_to_world(const Eigen::Vector2d& from_odometry_m) noexcept;
   // What one that was here before knew last.
   void resume_tracks(const VehiclePose& head) noexcept;
 
   ImagingSonar& sonar_;
   DeltaTOptions options_;
+  PingWatch watch_;
   Detector detector_;
   Reader<VehicleState> vehicle_state_;
   Reader<VehicleState> every_state_;  // the same, one after the other
@@ -65,6 +73,7 @@ class DeltaTTask final : public Task {
   std::array<ChannelLook<>*, 3> inputs_{&every_state_, &vehicle_state_, &mission_status_};
   Writer<SonarPing> pings_;
   Writer<SonarObstacles> obstacles_;
+  Writer<Coverage> coverage_;
   Writer<Tracks> tracks_;
   std::optional<TrackOracle> oracle_;
   std::optional<Tracker> tracker_;
@@ -75,6 +84,7 @@ class DeltaTTask final : public Task {
   // Too large for a stack.
   std::unique_ptr<SonarPing> ping_ = std::make_unique<SonarPing>();
   std::unique_ptr<SonarObstacles> seen_ = std::make_unique<SonarObstacles>();
+  std::unique_ptr<Coverage> water_ = std::make_unique<Coverage>();
   std::unique_ptr<Tracks> known_ = std::make_unique<Tracks>();
 };
 

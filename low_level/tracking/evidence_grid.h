@@ -17,11 +17,10 @@
 #include <vector>
 
 #include "mid_level/base/frames.h"
+#include "mid_level/messages/coverage.h"
 #include "mid_level/messages/obstacle.h"
 
 namespace lodesman {
-
-enum class WaterState : std::uint8_t { kUnknown, kFree, kOccupied };
 
 // One ping, as far as the grid cares.
 struct Look {
@@ -116,10 +115,28 @@ class EvidenceGrid {
   void forget() noexcept;
 
   [[nodiscard]] WaterState state(const Eigen::Vector2d& p) const noexcept {
-    const int value = is_place(p.x(), p.y()) ? evidence(cell(p.x()), cell(p.y())) : 0;
-    return value >= kOccupiedAt ? WaterState::kOccupied
-           : value <= kFreeAt   ? WaterState::kFree
-                                : WaterState::kUnknown;
+    return state_of(is_place(p.x(), p.y()) ? evidence(cell(p.x()), cell(p.y())) : 0);
+  }
+  // Of cells beside each other, from a column of a row on. What was free and not looked at since
+  // `since_s` is unknown, and so is all where not every cell is in the window.
+  void read_row(int column, int row, double since_s, std::span<WaterState> out) const noexcept {
+    const int last = column + static_cast<int>(out.size()) - 1;
+    if (!holds(column, row) || !holds(last, row)) {
+      std::fill(out.begin(), out.end(), WaterState::kUnknown);
+      return;
+    }
+    // Not a number before the first ping, when nothing was seen.
+    const double ticks = std::max(0.0, 1e3 * (since_s - epoch_s_));
+    const std::uint32_t since = 2 * static_cast<std::uint32_t>(std::min(ticks, 2e9));
+    std::size_t at = slot(column, row);
+    const std::size_t row_end = slot(0, row) + static_cast<std::size_t>(kSide);
+    for (WaterState& state : out) {
+      state = state_of(evidence_[at]);
+      if (state == WaterState::kFree && seen_[at] < since) {
+        state = WaterState::kUnknown;
+      }
+      at = at + 1 == row_end ? row_end - static_cast<std::size_t>(kSide) : at + 1;
+    }
   }
   // [s] When a beam or an obstacle last touched the cell; minus infinity: never.
   [[nodiscard]] double last_seen_s(const Eigen::Vector2d& p) const noexcept {
@@ -169,6 +186,11 @@ class EvidenceGrid {
   static constexpr int kTileSlots = 32;
   static constexpr std::size_t kCells = static_cast<std::size_t>(kSide) * kSide;
 
+  [[nodiscard]] static WaterState state_of(int evidence) noexcept {
+    return evidence >= kOccupiedAt ? WaterState::kOccupied
+           : evidence <= kFreeAt   ? WaterState::kFree
+                                   : WaterState::kUnknown;
+  }
   [[nodiscard]] static std::size_t tile_slot(int tile_x, int tile_y) noexcept {
     return static_cast<std::size_t>((tile_y & (kTileSlots - 1)) * kTileSlots +
                                     (tile_x & (kTileSlots - 1)));

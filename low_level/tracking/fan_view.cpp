@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "mid_level/geometry/obstacle_distance.h"
@@ -13,6 +14,27 @@ namespace {
 constexpr int kEllipsePoints = 32;
 constexpr double kEdgeBeams = 2.0;     // of the fan, in which half an obstacle may be outside
 constexpr double kHiddenFrom_m = 0.3;  // an echo so much nearer hides what is behind it
+constexpr double kCutBeams = 1.5;      // what ends so near to the fan's end goes on beyond it
+
+// Calls visit(a, b) for every edge of its outline, an ellipse as a polygon.
+template <class Visit>
+void for_each_edge(const Obstacle& o, Visit visit) {
+  if (o.shape != ObstacleShape::kEllipse) {
+    for_each_side(o, visit);
+    return;
+  }
+  const Eigen::Vector2d middle{o.centre_x_m, o.centre_y_m};
+  const Eigen::Vector2d along = first_axis(o.angle_rad) * o.semi_axis_first_m;
+  const Eigen::Vector2d across =
+      Eigen::Vector2d{std::cos(o.angle_rad), -std::sin(o.angle_rad)} * o.semi_axis_second_m;
+  Eigen::Vector2d last = middle + along;
+  for (int k = 1; k <= kEllipsePoints; ++k) {
+    const double turn_rad = 2.0 * std::numbers::pi * k / kEllipsePoints;
+    const Eigen::Vector2d next = middle + std::cos(turn_rad) * along + std::sin(turn_rad) * across;
+    visit(last, next);
+    last = next;
+  }
+}
 
 }  // namespace
 
@@ -22,7 +44,8 @@ double FanView::beam_at(double x_m, double y_m) const noexcept {
   return off_rad / beam_step_rad_ + 0.5 * (beams_ - 1.0);
 }
 
-void FanView::set(const SonarPing& ping, const SonarObstacles& seen, double nearest_m) noexcept {
+void FanView::set(const SonarPing& ping, const SonarObstacles& seen, double nearest_m,
+                  std::span<const std::uint8_t> blind) noexcept {
   beams_ = std::min<std::uint32_t>(ping.beams, kMaxBeams);
   first_bearing_rad_ = ping.first_bearing_rad;
   beam_step_rad_ = ping.beam_step_rad;
@@ -33,6 +56,10 @@ void FanView::set(const SonarPing& ping, const SonarObstacles& seen, double near
     shade_shape(seen.obstacles[i]);
   }
   limit_to_listed(seen);
+  limit_to_returns(ping);
+  for (std::size_t beam = 0; beam < std::min<std::size_t>(blind.size(), beams_); ++beam) {
+    clear_m_[beam] = blind[beam] != 0 ? 0.0F : clear_m_[beam];
+  }
 }
 
 // Beyond the farthest of a list that was too short nothing is known.
@@ -47,22 +74,18 @@ void FanView::limit_to_listed(const SonarObstacles& seen) noexcept {
   }
 }
 
+// A beam of a profile saw no farther than its return, whether or not that became an obstacle.
+void FanView::limit_to_returns(const SonarPing& ping) noexcept {
+  const auto returns = std::min<std::uint32_t>(beams_, ping.point_count);
+  for (std::uint32_t beam = 0; beam < returns; ++beam) {
+    if (ping.points[beam].range_m > 0.0) {
+      clear_m_[beam] = std::min(clear_m_[beam], static_cast<float>(ping.points[beam].range_m));
+    }
+  }
+}
+
 void FanView::shade_shape(const Obstacle& o) noexcept {
-  if (o.shape != ObstacleShape::kEllipse) {
-    for_each_side(o, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) { shade_edge(a, b); });
-    return;
-  }
-  const Eigen::Vector2d middle{o.centre_x_m, o.centre_y_m};
-  const Eigen::Vector2d along = first_axis(o.angle_rad) * o.semi_axis_first_m;
-  const Eigen::Vector2d across =
-      Eigen::Vector2d{std::cos(o.angle_rad), -std::sin(o.angle_rad)} * o.semi_axis_second_m;
-  Eigen::Vector2d last = middle + along;
-  for (int k = 1; k <= kEllipsePoints; ++k) {
-    const double turn_rad = 2.0 * std::numbers::pi * k / kEllipsePoints;
-    const Eigen::Vector2d next = middle + std::cos(turn_rad) * along + std::sin(turn_rad) * across;
-    shade_edge(last, next);
-    last = next;
-  }
+  for_each_edge(o, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) { shade_edge(a, b); });
 }
 
 void FanView::shade(double beam, double range_m) noexcept {
@@ -89,6 +112,33 @@ void FanView::shade_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to)
       shade(beam, (from + std::clamp(share, 0.0, 1.0) * way).norm());
     }
   }
+}
+
+CutEnds FanView::cut_ends(const Obstacle& o) const noexcept {
+  struct End {
+    double beam;
+    double range_m;
+  };
+  End port{std::numeric_limits<double>::infinity(), 0.0};
+  End starboard{-std::numeric_limits<double>::infinity(), 0.0};
+  for_each_edge(o, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    for (const Eigen::Vector2d& at : {a, b}) {
+      const double beam = beam_at(at.x(), at.y());
+      port = beam < port.beam ? End{beam, at.norm()} : port;
+      starboard = beam > starboard.beam ? End{beam, at.norm()} : starboard;
+    }
+  });
+  return {port.beam < kCutBeams || is_hidden(std::floor(port.beam) - 1.0, port.range_m) ||
+              is_hidden(std::floor(port.beam) - 2.0, port.range_m),
+          starboard.beam > beams_ - 1.0 - kCutBeams ||
+              is_hidden(std::ceil(starboard.beam) + 1.0, starboard.range_m) ||
+              is_hidden(std::ceil(starboard.beam) + 2.0, starboard.range_m)};
+}
+
+// Behind something nearer; beyond the fan nothing hides anything.
+bool FanView::is_hidden(double beam, double range_m) const noexcept {
+  return beam >= 0.0 && beam < beams_ &&
+         static_cast<double>(clear_m_[static_cast<std::size_t>(beam)]) < range_m - kHiddenFrom_m;
 }
 
 double FanView::visible_share(const Obstacle& ellipse) const noexcept {

@@ -6,6 +6,8 @@
 
 #include <Eigen/LU>
 
+#include "low_level/tracking/sightings.h"
+
 namespace lodesman {
 namespace {
 
@@ -44,6 +46,25 @@ void learn_detection(Followed& one, double was_seen, double visible_share) noexc
       kDetectionShare * visible_share * (was_seen - one.detection_probability);
   one.detection_probability =
       std::clamp(one.detection_probability, kLeastDetection, kMostDetection);
+}
+
+[[nodiscard]] Eigen::Matrix2d spread_of(const Followed& one, const Sighting& seen) noexcept {
+  return one.covariance.topLeftCorner<2, 2>() + seen.covariance;
+}
+
+// Takes it for as large as is seen, where the end that is seen stays where it is.
+void grow_beyond_cut(Followed& one, const Sighting& seen) noexcept {
+  const double half_m = seen.shape.semi_axis_second_m;
+  const double more_m = half_m - one.shape.semi_axis_second_m;
+  if (!seen.is_cut() || more_m <= 0.0) {
+    return;
+  }
+  const double deeper_m = std::max(0.0, half_depth_m(half_m) - one.shape.semi_axis_first_m);
+  const Eigen::Vector2d shift = to_the_rest_m(seen, more_m, deeper_m);
+  one.state.head<2>() += shift;
+  one.anchor += shift;
+  one.shape.semi_axis_second_m = half_m;
+  one.shape.semi_axis_first_m += deeper_m;
 }
 
 }  // namespace
@@ -102,19 +123,21 @@ void predict(Followed& one, double dt_s) noexcept {
 }
 
 double squared_distance(const Followed& one, const Sighting& seen) noexcept {
-  const Eigen::Vector2d off = seen.middle - one.place();
-  const Eigen::Matrix2d spread = one.covariance.topLeftCorner<2, 2>() + seen.covariance;
-  return off.dot(spread.inverse() * off);
+  const Sighting whole = completed(seen, one.shape.semi_axis_second_m);
+  const Eigen::Vector2d off = whole.middle - one.place();
+  return off.dot(spread_of(one, whole).inverse() * off);
 }
 
 double log_spread(const Followed& one, const Sighting& seen) noexcept {
-  const Eigen::Matrix2d spread = one.covariance.topLeftCorner<2, 2>() + seen.covariance;
-  return std::log(spread.determinant());
+  const Sighting whole = completed(seen, one.shape.semi_axis_second_m);
+  return std::log(spread_of(one, whole).determinant());
 }
 
-void update(Followed& one, const Sighting& seen, double now_s) noexcept {
+void update(Followed& one, const Sighting& part, double now_s) noexcept {
+  grow_beyond_cut(one, part);
+  const Sighting seen = completed(part, one.shape.semi_axis_second_m);
   const Eigen::Vector2d off = seen.middle - one.place();
-  const Eigen::Matrix2d spread = one.covariance.topLeftCorner<2, 2>() + seen.covariance;
+  const Eigen::Matrix2d spread = spread_of(one, seen);
   const Eigen::Matrix2d weight = spread.inverse();
   const Eigen::Matrix<double, 4, 2> gain = one.covariance.leftCols<2>() * weight;
   one.state += gain * off;

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "low_level/tracking/fan_view.h"
 #include "mid_level/messages/obstacle.h"
 #include "mid_level/messages/tracks.h"
 
@@ -24,7 +25,11 @@ enum class Motion : std::uint8_t {
 struct Sighting {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();      // [m] [odometry]
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [m^2]
-  Obstacle shape;                                        // [odometry] an ellipse
+  // [odometry] an ellipse, its first axis along the line of sight, its second across it.
+  Obstacle shape;
+  CutEnds cut;
+
+  [[nodiscard]] bool is_cut() const noexcept { return cut.port || cut.starboard; }
 };
 
 struct Followed {
@@ -38,6 +43,7 @@ struct Followed {
   double existence = 0.0;     // [-] [0, 1] probability
   double first_seen_s = 0.0;  // [s]
   double last_seen_s = 0.0;   // [s]
+  double still_share = 0.0;   // [-] of what was seen of it last, where something rests
   double unlike_s = 0.0;      // [s] for which its velocity has spoken for the other motion
   double surprise = 0.0;      // [-] smoothed normalised innovation squared: 2 where the model holds
   double detection_probability = 0.0;  // [-] share of the pings that could show it and did, lately
@@ -57,7 +63,8 @@ void predict(Followed& one, double dt_s) noexcept;
 // [-] log of the determinant of what that distance is measured by: between two that expected it,
 // the surer one is likelier.
 [[nodiscard]] double log_spread(const Followed& one, const Sighting& seen) noexcept;
-void update(Followed& one, const Sighting& seen, double now_s) noexcept;
+// What comes into view that was cut before was there: that it is larger is no motion.
+void update(Followed& one, const Sighting& part, double now_s) noexcept;
 // It was looked for, and the share of it that could be seen was not.
 void miss(Followed& one, double visible_share) noexcept;
 // [m] From its middle to the water at its bow, if it moves; that at its stern is as far behind.

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "low_level/sonar/known_obstacles.h"
+#include "low_level/sonar/segmentation_options.h"
 #include "low_level/tracking/sightings.h"
 #include "mid_level/base/time.h"
 
@@ -104,14 +105,14 @@ void Tracker::resume(const Tracks& last, const VehiclePose& head, Time now) noex
 }
 
 void Tracker::see(const SonarPing& ping, const SonarObstacles& seen, const VehiclePose& head,
-                  Tracks& out) noexcept {
+                  Tracks& out, std::span<const std::uint8_t> blind) noexcept {
   now_s_ = to_seconds(ping.captured.time_since_epoch());
   const double dt_s = last_s_ < 0.0 ? 0.0 : std::max(0.0, now_s_ - last_s_);
   last_s_ = now_s_;
   if (dt_s > kLongestSilence_s) {
     count_ = 0;  // what moved may be anywhere
   }
-  fan_.set(ping, seen, nearest_m_);
+  fan_.set(ping, seen, heard_from_m(nearest_m_, ping.range_m), blind);
   place(ping, seen, head);
   for (Followed& one : std::span{followed_}.first(count_)) {
     for (double left_s = dt_s; left_s > 0.0; left_s -= kLongestGap_s) {
@@ -122,11 +123,11 @@ void Tracker::see(const SonarPing& ping, const SonarObstacles& seen, const Vehic
   update_followed(head, dt_s);
   water_->look({.pose = head,
                 .at_s = now_s_,
-                .first_bearing_rad = fan_.first_bearing_rad(),
+                .first_bearing_rad = fan_.sure_first_bearing_rad(),
                 .beam_step_rad = fan_.beam_step_rad(),
                 .nearest_m = fan_.nearest_m(),
                 .farthest_m = fan_.farthest_m(),
-                .clear_m = fan_.clear_m()});
+                .clear_m = fan_.sure_clear_m()});
   begin_new();
   pick_shown(head);
   feed_grid();
@@ -140,10 +141,11 @@ void Tracker::place(const SonarPing& ping, const SonarObstacles& seen,
   for (std::size_t i = 0; i < seen_count_; ++i) {
     seen_[i] = {};
     seen_[i].compact = is_compact(seen.obstacles[i]);
-    seen_[i].shape = to_world(head, seen.obstacles[i]);
+    seen_[i].outline = seen_[i].shape = to_world(head, seen.obstacles[i]);
     if (seen_[i].compact) {
-      seen_[i].sighting = sighting_of(seen.obstacles[i], head, ping.beam_step_rad);
-      seen_[i].shape = seen_[i].sighting.shape;
+      seen_[i].sighting = sighting_of(seen.obstacles[i], head, ping.beam_step_rad,
+                                      fan_.cut_ends(seen.obstacles[i]));
+      seen_[i].shape = is_front(seen.obstacles[i]) ? seen_[i].sighting.shape : seen_[i].outline;
     }
   }
 }
@@ -182,7 +184,9 @@ void Tracker::update_followed(const VehiclePose& head, double dt_s) noexcept {
     Followed& one = followed_[f];
     const Motion before = one.motion;
     if (sighting_of_[f] != kNone) {
-      update(one, seen_[sighting_of_[f]].sighting, now_s_);
+      const Seen& seen = seen_[sighting_of_[f]];
+      update(one, seen.sighting, now_s_);
+      one.still_share = water_->shares_under(seen.outline).occupied;
     } else {
       miss(one, fan_.visible_share(to_vehicle(head, shape_of(one))));
     }
@@ -223,7 +227,8 @@ void Tracker::begin_new() noexcept {
       Followed& one = followed_[count_++];
       one = begin_following(seen.sighting, next_id_, now_s_);
       next_id_ = next_id_ % kMostIds + 1;
-      if (water_->shares_under(seen.shape).occupied >= kKnownStill) {
+      one.still_share = water_->shares_under(seen.outline).occupied;
+      if (one.still_share >= kKnownStill) {
         come_to_rest(one);
       }
     }
@@ -233,8 +238,7 @@ void Tracker::begin_new() noexcept {
 // Whether it is a track of its own: what rests is, until the grid has it.
 bool Tracker::is_shown(const Followed& one) const noexcept {
   const bool is_there = one.existence >= kPublished || one.last_seen_s >= now_s_;
-  return is_there && (one.motion != Motion::kResting ||
-                      water_->shares_under(shape_of(one)).occupied < kKnownStill);
+  return is_there && (one.motion != Motion::kResting || one.still_share < kKnownStill);
 }
 
 void Tracker::pick_shown(const VehiclePose& head) noexcept {

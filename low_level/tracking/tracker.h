@@ -22,13 +22,14 @@ namespace lodesman {
 
 class Tracker {
  public:
-  // [m] Nothing is heard nearer.
+  // [m] Nothing is heard nearer, at long range settings.
   explicit Tracker(double nearest_m);
 
   // What one ping shows. `seen` is in the head's frame, whose place and direction `head` is
-  // [odometry]. `out` is in the odometry frame: what moves first, then what rests.
-  void see(const SonarPing& ping, const SonarObstacles& seen, const VehiclePose& head,
-           Tracks& out) noexcept;
+  // [odometry]. `out` is in the odometry frame: what moves first, then what rests. Beams for which
+  // `blind` is not 0 show nothing but what was found in them; empty: none is.
+  void see(const SonarPing& ping, const SonarObstacles& seen, const VehiclePose& head, Tracks& out,
+           std::span<const std::uint8_t> blind = {}) noexcept;
 
   // What one that was here before knew last [odometry], before the first ping. What no tracker
   // would have written is passed over.
@@ -44,8 +45,9 @@ class Tracker {
   static constexpr std::size_t kNone = kMaxObstacles;
   static constexpr std::uint32_t kMostMovers = 48;        // some room is always left for what rests
   static constexpr std::uint32_t kMostIds = 999'999'999;  // others' are greater
-  struct Seen {  // one obstacle of the ping, in the odometry frame
-    Obstacle shape;
+  struct Seen {        // one obstacle of the ping, in the odometry frame
+    Obstacle outline;  // of what was heard
+    Obstacle shape;    // of what that is taken to be
     Sighting sighting;
     bool compact = false;  // small enough to be followed
     std::size_t follower = kNone;

@@ -12,6 +12,7 @@
 #include "mid_level/blackboard/wake_edges.h"
 #include "mid_level/messages/arming.h"
 #include "mid_level/messages/command.h"
+#include "mid_level/messages/coverage.h"
 #include "mid_level/messages/guard.h"
 #include "mid_level/messages/health.h"
 #include "mid_level/messages/mission.h"
@@ -68,6 +69,7 @@ struct Blackboard {
   Channel<EstimatorMemory, 4> estimator_memory;
   Channel<SonarPing, 4> sonar_ping;
   Channel<SonarObstacles, 16> sonar_obstacles;
+  Channel<Coverage, 8> coverage;
   Channel<Tracks, 8> tracks;
   Channel<PathRequest, 8> path_request;
   Channel<SonarPath, 8> sonar_path;
@@ -116,6 +118,29 @@ inline constexpr std::array<DeviceInfo, kDeviceCount> kDeviceInfo{{
     {"thruster_device", "thruster"},
 }};
 
+// Those that there are several of: a device's, a task's.
+template <class Board, class Visit>
+void for_each_numbered_channel(Board& board, Visit& visit) {
+  for (std::size_t i = 0; i < kDeviceCount; ++i) {
+    const DeviceInfo& info = kDeviceInfo[i];
+    visit(ChannelInfo{info.channel, Role::kLow, info.task, max_age::kDeviceHealth},
+          board.device_health[i]);
+  }
+  for (std::size_t i = 0; i < kTaskCount; ++i) {
+    const auto task = static_cast<TaskId>(i);
+    const bool high =
+        task == TaskId::kEstimator || task == TaskId::kPlanner || task == TaskId::kController;
+    visit(ChannelInfo{to_string(task), high ? Role::kHigh : Role::kLow, to_string(task),
+                      max_age::kNoLimit},
+          board.task_health[i]);
+  }
+  for (std::size_t i = 0; i < kReplayedCount; ++i) {
+    const StepInputsInfo& info = kStepInputsInfo[i];
+    visit(ChannelInfo{info.channel, info.writer, to_string(info.task), max_age::kNoLimit},
+          board.step_inputs[i]);
+  }
+}
+
 // Calls visit(ChannelInfo, channel) for every channel, in the order of the struct.
 template <class Board, class Visit>
 void for_each_channel(Board& board, Visit visit) {
@@ -132,6 +157,7 @@ void for_each_channel(Board& board, Visit visit) {
   visit(ChannelInfo{"sonar_ping", Role::kLow, "delta_t", max_age::kSonarFrame}, board.sonar_ping);
   visit(ChannelInfo{"sonar_obstacles", Role::kLow, "delta_t", max_age::kSonarFrame},
         board.sonar_obstacles);
+  visit(ChannelInfo{"coverage", Role::kLow, "delta_t", max_age::kSonarFrame}, board.coverage);
   visit(ChannelInfo{"tracks", Role::kLow, "delta_t", max_age::kSonarFrame}, board.tracks);
   visit(ChannelInfo{"path_request", Role::kHigh, "planner", max_age::kNoLimit}, board.path_request);
   visit(ChannelInfo{"sonar_path", Role::kLow, "path_finder", max_age::kNoLimit}, board.sonar_path);
@@ -160,24 +186,7 @@ void for_each_channel(Board& board, Visit visit) {
   visit(ChannelInfo{"box_proof", Role::kLow, "thruster", max_age::kNoLimit}, board.box_proof);
   visit(ChannelInfo{"battery_status", Role::kLow, "thruster", max_age::kBatteryStatus},
         board.battery_status);
-  for (std::size_t i = 0; i < kDeviceCount; ++i) {
-    const DeviceInfo& info = kDeviceInfo[i];
-    visit(ChannelInfo{info.channel, Role::kLow, info.task, max_age::kDeviceHealth},
-          board.device_health[i]);
-  }
-  for (std::size_t i = 0; i < kTaskCount; ++i) {
-    const auto task = static_cast<TaskId>(i);
-    const bool high =
-        task == TaskId::kEstimator || task == TaskId::kPlanner || task == TaskId::kController;
-    visit(ChannelInfo{to_string(task), high ? Role::kHigh : Role::kLow, to_string(task),
-                      max_age::kNoLimit},
-          board.task_health[i]);
-  }
-  for (std::size_t i = 0; i < kReplayedCount; ++i) {
-    const StepInputsInfo& info = kStepInputsInfo[i];
-    visit(ChannelInfo{info.channel, info.writer, to_string(info.task), max_age::kNoLimit},
-          board.step_inputs[i]);
-  }
+  for_each_numbered_channel(board, visit);
 }
 
 // The writer of one of the board's own channels, which rings those that the channel wakes. Throws

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "mid_level/base/time.h"
 #include "mid_level/messages/fields.h"
@@ -203,9 +204,11 @@ struct Plan {
   double speed_share = 1.0;  // [-] [-100, 100] of the mission's SurgeRef; more than 1: to get away
   bool stay_at_end = false;  // the last waypoint is a place to wait at
   bool narrow = false;       // zones had to give what they may
-  bool changed = false;      // another side or another manoeuvre than in the plan before
-  std::uint32_t cause = 0;   // [-] Track::id that the rung is about; 0: none
-  double clearance_m = 0.0;  // [m] least one foreseen, of the hull; infinity: no obstacle
+  // Of the way ahead, where that is too little for the mission's speed; else infinity.
+  double seen_ahead_m = std::numeric_limits<double>::infinity();  // [m]
+  bool changed = false;              // another side or another manoeuvre than in the plan before
+  std::uint32_t cause = 0;           // [-] Track::id that the rung is about; 0: none
+  double clearance_m = 0.0;          // [m] least one foreseen, of the hull; infinity: no obstacle
   double clearance_after_s = 0.0;    // [s] when
   std::uint64_t path_id = 0;         // [-] the plan whose path the waypoints belong to
   Time path_captured{};              // [ns] capture time of that plan's frame: how old the path is
@@ -229,8 +232,8 @@ struct Plan {
         field("course_rad", &P::course_rad).within(-kHalfTurn_rad, kHalfTurn_rad),
         field("speed_share", &P::speed_share).within(-100.0, 100.0),
         field("stay_at_end", &P::stay_at_end), field("narrow", &P::narrow),
-        field("changed", &P::changed), field("cause", &P::cause),
-        field("clearance_m", &P::clearance_m).or_infinite(),
+        field("seen_ahead_m", &P::seen_ahead_m).or_infinite(), field("changed", &P::changed),
+        field("cause", &P::cause), field("clearance_m", &P::clearance_m).or_infinite(),
         field("clearance_after_s", &P::clearance_after_s), field("path_id", &P::path_id),
         field("path_captured", &P::path_captured), field("waypoint_count", &P::waypoint_count),
         field("waypoints", &P::waypoints, &P::waypoint_count));

@@ -93,7 +93,7 @@ enum class DeviceFault : std::uint8_t {
   // Of what a sensor says.
   kSelfTestFailed,  // its own test says that it must not be used
   kSelfTestWarning,
-  kFrozen,        // the same to the last bit, though the boat moves
+  kFrozen,        // the same to the last bit, though the boat moves, or the water does
   kImplausible,   // whole, but it cannot be: by its own clock or its own rates
   kUnusualBeams,  // a sonar's beams lie otherwise than its sector says
   // Of a thruster box.
@@ -108,14 +108,21 @@ enum class DeviceFault : std::uint8_t {
   kNoFix,      // it says that it has none
   kWrongDate,  // its date cannot be; its position is used, its date is not
   kFarOff,     // its position lies farther from the world's origin than is set: it is not used
+  // Of what a sonar's pings show, beside kFrozen.
+  kSaturated,     // nearly all is white
+  kDeaf,          // it heard water, and hears nothing any more
+  kBlindSector,   // some beams hear nothing
+  kWeed,          // some beams hear a haze at the head and nothing behind it
+  kInterference,  // bright rays in many bearings
 };
 [[nodiscard]] constexpr auto enumerators(DeviceFault) noexcept {
-  return enumerators_to<DeviceFault::kFarOff>(
+  return enumerators_to<DeviceFault::kInterference>(
       "none", "no_port", "port_busy", "no_permission", "not_a_port", "unplugged", "line_full",
       "nobody_listens", "no_way", "starting", "no_answer", "wrong_device", "does_not_fit",
       "setting_refused", "self_test_failed", "self_test_warning", "frozen", "implausible",
       "unusual_beams", "proving", "wrong_mode", "no_time_out", "not_neutral", "box_error",
-      "box_reset", "no_service", "no_fix", "wrong_date", "far_off");
+      "box_reset", "no_service", "no_fix", "wrong_date", "far_off", "saturated", "deaf",
+      "blind_sector", "weed", "interference");
 }
 
 // The same in words, for an operator: what it is and, where it is plain, what mends it.
@@ -157,6 +164,13 @@ enum class DeviceFault : std::uint8_t {
     case DeviceFault::kWrongDate: return "its date cannot be, and is not used";
     case DeviceFault::kFarOff:
       return "its position is farther from the origin than is set: is [origin] right?";
+    case DeviceFault::kSaturated: return "its pings are white all over, and are not used";
+    case DeviceFault::kDeaf: return "it hears nothing any more, and its pings are not used";
+    case DeviceFault::kBlindSector:
+      return "some of its beams hear nothing: water there is not taken for free";
+    case DeviceFault::kWeed:
+      return "something covers a part of it: water behind that is not taken for free";
+    case DeviceFault::kInterference: return "rays cross its pings: what else is on its supply?";
   }
   return "";
 }

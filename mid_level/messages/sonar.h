@@ -84,6 +84,13 @@ struct SonarPing {
     echo_count = beams * bins;
     set_bearings(0.5 * sector * (1.0 / beams - 1.0), sector / beams);
   }
+  // A profile, laid out so. Its points stay as they are.
+  void make_profile(std::uint32_t beam_count, double sector) noexcept {
+    kind = PingKind::kProfile;
+    beams = point_count = beam_count;
+    bins = echo_count = 0;
+    set_bearings(0.5 * sector * (1.0 / beams - 1.0), sector / beams);
+  }
   // Bearing of a beam's centre, clockwise from straight ahead.
   [[nodiscard]] double bearing_rad(std::uint32_t beam) const noexcept {
     return first_bearing_rad + beam * beam_step_rad;

@@ -60,7 +60,7 @@ void command_until_taken(Bench& bench) {
 
 // A world that moves on by hand, and the simulated device D of contract C in it. The faults are
 // those of a scenario: pulling the plug jumps to the scenario time at which it is pulled.
-template <class C, class D, FaultDevice kDevice>
+template <class C, class D, FaultDevice kDevice, SonarScene kScene = SonarScene::kBeams>
 class SimBench {
  public:
   [[nodiscard]] C& device() noexcept { return *device_; }
@@ -96,6 +96,10 @@ class SimBench {
   [[nodiscard]] static Scenario scenario() {
     Scenario scenario;
     scenario.seed = 1;
+    scenario.sonar.scene = kScene;
+    if (kScene == SonarScene::kDetections) {
+      scenario.sonar.detections = {0.1, 0.1, 0.1, 0.5, 0.05};
+    }
     MovingObstacle circle;
     circle.at_start.centre_y_m = 10.0;
     circle.at_start.semi_axis_first_m = circle.at_start.semi_axis_second_m = 0.5;
@@ -139,10 +143,13 @@ struct SimPositionBench : SimBench<PositionSensor, SimPositionSensor, FaultDevic
   [[nodiscard]] static Duration period() noexcept { return std::chrono::milliseconds{200}; }
   [[nodiscard]] static Duration recovery() noexcept { return 2 * period(); }
 };
-struct SimSonarBench : SimBench<ImagingSonar, SimSonar, FaultDevice::kSonar> {
+template <SonarScene kScene>
+struct SimPingBench : SimBench<ImagingSonar, SimSonar, FaultDevice::kSonar, kScene> {
   [[nodiscard]] static Duration period() noexcept { return std::chrono::milliseconds{100}; }
   [[nodiscard]] static Duration recovery() noexcept { return 2 * period(); }
 };
+using SimSonarBench = SimPingBench<SonarScene::kBeams>;
+using SimDetectionsBench = SimPingBench<SonarScene::kDetections>;
 struct SimThrusterBench : SimBench<ThrusterPair, SimThrusterPair, FaultDevice::kThruster> {};
 
 }  // namespace lodesman::conformance

@@ -3,13 +3,14 @@
 #include <memory>
 #include <numbers>
 
+#include "mid_level/messages/sane.h"
 #include "tests/conformance/delta_t_bench.h"
 #include "tests/conformance/sensor_suite.h"
 
 namespace lodesman::conformance {
 namespace {
 
-using ImagingSonars = std::tuple<SimSonarBench, DeltaTBench>;
+using ImagingSonars = std::tuple<SimSonarBench, SimDetectionsBench, DeltaTBench>;
 
 constexpr auto kPoll = [](auto& bench) {
   static const auto kPing = std::make_unique<SonarPing>();
@@ -88,9 +89,10 @@ TEMPLATE_LIST_TEST_CASE("imaging sonar: numbers rise, sizes agree, values are in
     CHECK(ping->sector_rad <= std::numbers::pi);
     CHECK(ping->beams >= 1);
     CHECK(ping->beams <= kMaxBeams);
-    CHECK(ping->bins >= 1);
+    CHECK(ping->bins >= (ping->kind == PingKind::kImage ? 1U : 0U));
     CHECK(ping->bins <= kMaxBins);
-    CHECK(ping->echo_count == ping->beams * ping->bins);
+    CHECK(ping->fits());
+    CHECK(sane(*ping));
   }
   CHECK(fresh > 50);
 }

@@ -41,7 +41,7 @@ constexpr const char* kQuay =
 
 TEST_CASE("guard: full ahead at what rests touches nothing, at any speed", "[system]") {
   const BoatConfig config = boat();
-  for (const std::string scene : {"obstacles", "beams"}) {
+  for (const std::string scene : {"obstacles", "beams", "detections"}) {
     for (const char* obstacle : {kStone, kQuay}) {
       for (const double speed_m_s : {0.22, 1.12}) {
         INFO(scene << ", " << obstacle << ", " << speed_m_s << " m/s");

@@ -124,7 +124,7 @@ const std::vector<Arrow>& arrows() {
       {"hal_sim/world",
        {"hal_sim/scenario", "drivers/hal", "mid_level/blackboard", kTask, "mid_level/geometry",
         "mid_level/messages"}},
-      {"hal_sim/sonar", {"mid_level/geometry", "mid_level/messages"}},
+      {"hal_sim/sonar", {"hal_sim/scenario", "mid_level/geometry", "mid_level/messages"}},
       {"hal_sim/devices",
        {"hal_sim/world", "hal_sim/sonar", "hal_sim/scenario", "drivers/hal", "mid_level/blackboard",
         "mid_level/geometry", "mid_level/messages"}},

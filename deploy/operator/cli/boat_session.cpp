@@ -50,6 +50,18 @@ constexpr std::size_t kMaxReply = 1024 * 1024;  // [bytes] whatever it is that a
   return line;
 }
 
+void print_warnings(const std::string& command, const nlohmann::ordered_json& reply) {
+  const auto warnings = reply.find("warnings");
+  if (warnings == reply.end() || !warnings->is_array()) {
+    return;
+  }
+  for (const auto& warning : *warnings) {
+    if (warning.is_string()) {
+      fmt::print(stderr, "{}: warning: {}\n", command, warning.get<std::string>());
+    }
+  }
+}
+
 void print_reply(const std::string& command, const nlohmann::ordered_json& reply,
                  const std::string& line, const OperatorOptions& options, int status) {
   if (options.common.json) {
@@ -62,6 +74,9 @@ void print_reply(const std::string& command, const nlohmann::ordered_json& reply
   } else if (!options.common.quiet) {
     const bool says_more = command == "status" || command == "tune";
     fmt::print("{}\n", says_more ? reply.dump(2) : command + ": " + reply.value("state", "done"));
+    if (!says_more) {
+      print_warnings(command, reply);
+    }
   }
 }
 

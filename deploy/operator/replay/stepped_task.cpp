@@ -52,7 +52,7 @@ std::unique_ptr<Task> make_task(TaskId task, Blackboard& board, const ReplayOpti
 
 std::span<const char* const> decisions_of(TaskId task) noexcept {
   static constexpr std::array kEstimator{"world_origin", "vehicle_state", "estimator_memory"};
-  static constexpr std::array kDeltaT{"sonar_obstacles", "tracks"};
+  static constexpr std::array kDeltaT{"sonar_obstacles", "coverage", "tracks"};
   static constexpr std::array kPathFinder{"sonar_path"};
   static constexpr std::array kPlanner{"path_request", "plan", "mission_status"};
   static constexpr std::array kController{"helm_command"};

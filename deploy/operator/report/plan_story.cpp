@@ -74,6 +74,9 @@ std::string describe(const PlanRecord& plan) {
             ", " + fixed(*plan.clearance_m, 2) + " m clear in " + fixed(plan.clearance_after_s, 0) +
             " s";
   }
+  if (plan.seen_ahead_m) {
+    text += "; of the way ahead " + fixed(*plan.seen_ahead_m, 1) + " m are seen";
+  }
   return text + " (plan " + fixed(plan.t_s - plan.captured_s, 2) + " s old)";
 }
 

@@ -74,6 +74,8 @@ Json plan_json(const PlanRecord& plan) {
   json["obstacle"] = plan.cause != 0 ? Json(plan.cause) : Json(nullptr);
   json["clearance_m"] = plan.clearance_m ? number(*plan.clearance_m, kPlanDecimals) : Json(nullptr);
   json["clearance_after_s"] = number(plan.clearance_after_s, kPlanDecimals);
+  json["seen_ahead_m"] =
+      plan.seen_ahead_m ? number(*plan.seen_ahead_m, kPlanDecimals) : Json(nullptr);
   json["plan_age_s"] = number(plan.t_s - plan.captured_s, kPlanDecimals);
   json["waypoints_m"] = points(plan.waypoints_m, kPlanDecimals);
   json["expansions"] = plan.expansions;

@@ -55,8 +55,9 @@ struct PlanRecord {
   std::uint32_t cause = 0;
   std::optional<double> clearance_m;  // least one foreseen
   double clearance_after_s = 0.0;
-  std::optional<double> course_deg;  // where it is steered by
-  std::optional<int> cost_10_14;     // empty where no path was found
+  std::optional<double> seen_ahead_m;  // of the way, where that is too little for its speed
+  std::optional<double> course_deg;    // where it is steered by
+  std::optional<int> cost_10_14;       // empty where no path was found
   std::uint32_t expansions = 0;
   double plan_time_us = 0.0;                       // measured
   std::vector<std::array<double, 2>> path_m;       // [world] every pixel, start first

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deploy/operator/report/numbers.h"
 #include "deploy/operator/report/plan_story.h"
 #include "deploy/operator/run/way_left.h"
 #include "mid_level/base/frames.h"
@@ -18,10 +19,6 @@ constexpr std::size_t kMaxNotices = 1000;
 [[nodiscard]] bool is_stale(HelmReason reason) noexcept {
   return reason == HelmReason::kStaleState || reason == HelmReason::kStaleAttitude ||
          reason == HelmReason::kStaleMission;
-}
-
-[[nodiscard]] std::optional<double> if_finite(double value) noexcept {
-  return std::isfinite(value) ? std::optional{value} : std::nullopt;
 }
 
 [[nodiscard]] std::array<double, 2> metres(const WorldPoint& p) noexcept {
@@ -308,8 +305,9 @@ PlanRecord RunWatcher::describe(const Stamped<Plan>& published, const SonarPath*
   record.changed = plan.changed;
   record.cause = plan.cause;
   record.clearance_after_s = plan.clearance_after_s;
-  if (plan.steer_by != SteerBy::kWaypoints && std::isfinite(plan.clearance_m)) {
-    record.clearance_m = plan.clearance_m;
+  record.seen_ahead_m = if_finite(plan.seen_ahead_m);
+  if (plan.steer_by != SteerBy::kWaypoints) {
+    record.clearance_m = if_finite(plan.clearance_m);
   }
   if (plan.steer_by == SteerBy::kCourse) {
     record.course_deg = compass_deg(plan.course_rad);

@@ -169,9 +169,10 @@ TEST_CASE("docs: each thing that an arm or a start is refused for has its row", 
 
 TEST_CASE("docs: what the operator's desk can answer is among the alarms", "[docs]") {
   for (const char* source :
-       {"high_level/tasks/operator_desk.cpp", "high_level/tasks/thrust_desk.cpp",
-        "high_level/tasks/readiness.cpp", "high_level/tasks/tuning.cpp",
-        "high_level/mission/commander.cpp", "high_level/mission/command_line.cpp"}) {
+       {"high_level/tasks/operator_desk.cpp", "high_level/tasks/desk_replies.cpp",
+        "high_level/tasks/thrust_desk.cpp", "high_level/tasks/readiness.cpp",
+        "high_level/tasks/tuning.cpp", "high_level/mission/commander.cpp",
+        "high_level/mission/command_line.cpp"}) {
     require_told(source_of(source));
   }
 }

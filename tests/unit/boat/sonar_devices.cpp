@@ -49,6 +49,34 @@ TEST_CASE("sonar devices: addresses are checked where they stand, and nothing is
   }
 }
 
+// Why the sonar of that address is refused with the fault; empty where it is not.
+[[nodiscard]] std::string refusal_of(const std::string& address, FaultKind kind) {
+  Scenario scenario;
+  scenario.faults = {{FaultDevice::kSonar, kind, 0.0, 1.0}};
+  try {
+    require_faults(with_sonar(address), scenario);
+    return {};
+  } catch (const StartupError& error) {
+    return error.what();
+  }
+}
+
+TEST_CASE("sonar devices: each has the faults that it can have, and the rest are refused",
+          "[boat]") {
+  const auto is_of_bytes = [](const std::string& refusal) {
+    return refusal.find("needs a device that is emulated to the byte") != std::string::npos;
+  };
+  CHECK(is_of_bytes(refusal_of("sim:", FaultKind::kDrop)));
+  CHECK(refusal_of("loop:delta_t", FaultKind::kDrop).empty());
+  for (const FaultKind kind : {FaultKind::kSaturated, FaultKind::kFrozen, FaultKind::kBlinded,
+                               FaultKind::kWeed, FaultKind::kInterference}) {
+    CHECK(refusal_of("sim:", kind).empty());
+    CHECK(refusal_of("loop:delta_t", kind).empty());
+    CHECK(refusal_of("loop:delta_t?output=83P&control=off", kind).empty());
+    CHECK(refusal_of("loop:delta_t?output=83P", kind).find("output=83P") != std::string::npos);
+  }
+}
+
 TEST_CASE("sonar devices: a recording is played", "[boat]") {
   const testing::TemporaryDirectory folder;
   {

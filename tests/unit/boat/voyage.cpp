@@ -75,3 +75,60 @@ TEST_CASE("voyage: without a scenario there is neither a mission nor a known sce
   CHECK_FALSE(voyage.known_scene);
   CHECK(simulated(config_with({})).mission.value().goal_count == 1);
 }
+
+TEST_CASE("voyage: the scene is the scenario's, or what the configuration puts in its place",
+          "[boat]") {
+  using enum SonarScene;
+  const auto sonar = [](const std::vector<std::string>& sets, SonarScene scene) {
+    const BoatConfig config = config_with(sets);
+    Scenario scenario = load_named_scenario("paper-static", config.speeds);
+    scenario.sonar.scene = scene;
+    scenario.sonar.detections.missed = scene == kDetections ? 0.3 : 0.0;
+    CHECK(voyage_of(config, &scenario).known_scene.has_value() ==
+          (sailed_sonar(config, scenario).scene == kObstacles));
+    return sailed_sonar(config, scenario);
+  };
+  for (const SonarScene own : {kObstacles, kBeams, kDetections}) {
+    CHECK(sonar({}, own).scene == own);
+    CHECK(sonar({"simulation.scene=obstacles"}, own).scene == kObstacles);
+    CHECK(sonar({"simulation.scene=beams"}, own).scene == kBeams);
+    CHECK(sonar({"simulation.scene=detections"}, own).scene == kDetections);
+  }
+  CHECK(sonar({}, kDetections).detections.missed == Approx(0.3));
+  const std::vector<std::string> sets{"simulation.scene=detections",
+                                      "simulation.detections.split=0.2"};
+  CHECK(sonar(sets, kDetections).detections.missed == Approx(0.0));
+  CHECK(sonar(sets, kBeams).detections.split == Approx(0.2));
+}
+
+TEST_CASE("voyage: errors of detections beside another scene are refused", "[boat]") {
+  std::string refusal;
+  try {
+    static_cast<void>(config_with({"simulation.detections.split=0.2"}));
+  } catch (const StartupError& error) {
+    refusal = error.what();
+  }
+  CHECK(refusal.find("simulation.detections: is of scene = \"detections\" alone") !=
+        std::string::npos);
+}
+
+TEST_CASE("voyage: detections are of the simulated sonar alone", "[boat]") {
+  const auto refusal_of = [](const std::string& sonar, const std::string& scene) {
+    const BoatConfig config =
+        config_with({"devices.sonar=\"" + sonar + "\"", "simulation.scenario=paper-static",
+                     "simulation.scene=" + scene});
+    const std::optional<Scenario> scenario = simulated_scenario(config);
+    try {
+      require_sound(config, &*scenario);
+    } catch (const StartupError& error) {
+      return std::string{error.what()};
+    }
+    return std::string{};
+  };
+  CHECK(refusal_of("sim:", "detections").empty());
+  CHECK(refusal_of("loop:delta_t", "beams").empty());
+  for (const char* other : {"loop:delta_t", "delta_t:127.0.0.1"}) {
+    CHECK(refusal_of(other, "detections").find("devices.sonar: must be sim: in the scene") !=
+          std::string::npos);
+  }
+}

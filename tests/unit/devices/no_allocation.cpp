@@ -28,7 +28,10 @@ namespace {
 }
 
 TEST_CASE("world and simulated devices allocate nothing once made", "[hal_sim][devices]") {
+  const SonarScene scene = GENERATE(SonarScene::kBeams, SonarScene::kDetections);
   Scenario scenario;
+  scenario.sonar.scene = scene;
+  scenario.sonar.detections = {.missed = 0.2, .split = 0.5, .false_per_ping = 1.0};
   scenario.obstacles = {mover(ObstacleShape::kEllipse), mover(ObstacleShape::kPolyline),
                         mover(ObstacleShape::kPolygon)};
   scenario.faults = {{FaultDevice::kSonar, FaultKind::kCorrupt, 1.0, 0.5}};

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hal_sim/devices/sim_sonar.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <random>
 
 #include "hal_sim/sonar/echo.h"
 #include "hal_sim/world/clearance.h"
+#include "mid_level/messages/sane.h"
 #include "tests/support/catch.h"
 #include "tests/unit/devices/support.h"
 
@@ -101,6 +104,106 @@ TEST_CASE("sim sonar: only what exists then, where it is then", "[hal_sim][devic
   HandWorld later;
   later.state.scenario_time_s = 2.98;
   CHECK(first_echo(*ping_of(scenario, later), 0) == 100);
+}
+
+TEST_CASE("sim sonar: in the scene of detections a ping is a profile, with the scenario's errors",
+          "[hal_sim][devices]") {
+  Scenario scenario;
+  scenario.seed = 3;
+  scenario.sonar.beams = 121;
+  scenario.sonar.scene = SonarScene::kDetections;
+  scenario.obstacles = {circle(0.0, 10.0, 1.0)};
+  const auto middle_of = [&](double y_m, double time_s) {
+    HandWorld world;
+    world.state.y_m = y_m;
+    world.state.scenario_time_s = time_s;
+    const auto ping = ping_of(scenario, world);
+    CHECK(ping->kind == PingKind::kProfile);
+    CHECK(sane(*ping));
+    CHECK(ping->number == 1);
+    CHECK(ping->captured == world.now());
+    CHECK(ping->beams == 121);
+    CHECK(ping->bearing_rad(60) == Approx(0.0).margin(1e-12));
+    return ping->points[60].range_m;
+  };
+  CHECK(middle_of(0.0, 0.0) == Approx(9.0));
+  CHECK(middle_of(4.0, 0.0) == Approx(5.0));
+  scenario.obstacles[0].velocity_y_m_s = 0.5;
+  CHECK(middle_of(0.0, 3.98) == Approx(11.0));
+  scenario.sonar.detections.noise_m = 0.1;
+  const double noisy_m = middle_of(0.0, 3.98);
+  CHECK(std::abs(noisy_m - 11.0) > 1e-6);
+  CHECK(std::abs(noisy_m - 11.0) < 0.6);
+  scenario.seed = 4;
+  CHECK(std::abs(middle_of(0.0, 3.98) - noisy_m) > 1e-6);
+}
+
+TEST_CASE("sim sonar: without noise a ping is its clean echoes alone, whatever the seed",
+          "[hal_sim][devices]") {
+  Scenario scenario;
+  scenario.obstacles = {circle(-2.0, 10.0, 1.5),
+                        wall(ObstacleShape::kPolyline, {{-50.0, 20.0}, {50.0, 26.0}})};
+  HandWorld world;
+  const auto ping = ping_of(scenario, world);
+  scenario.seed = 99;
+  HandWorld another;
+  CHECK(ping_of(scenario, another)->echo == ping->echo);
+  std::vector<std::uint8_t> clean(ping->echo_count);
+  for (std::uint32_t beam = 0; beam < ping->beams; ++beam) {
+    const double bearing_rad = ping->bearing_rad(beam);
+    double nearest_m = 1e9;
+    for (const MovingObstacle& mover : scenario.obstacles) {
+      nearest_m = std::min(nearest_m, ray_range_m(mover.at_start, {},
+                                                  {std::sin(bearing_rad), std::cos(bearing_rad)}));
+    }
+    const auto first = static_cast<std::size_t>(nearest_m / 30.0 * 500.0);
+    const std::array<std::uint8_t, 4> echo{200, 150, 100, 50};
+    for (std::size_t i = 0; i < echo.size() && first + i < 500; ++i) {
+      clean[beam * 500 + first + i] = echo[i];
+    }
+  }
+  CHECK(std::equal(clean.begin(), clean.end(), ping->echo.begin()));
+}
+
+TEST_CASE("sim sonar: noise is heard, the same for the same seed", "[hal_sim][devices]") {
+  for (const SonarNoise noise : {SonarNoise::kTank, SonarNoise::kSea}) {
+    Scenario scenario;
+    scenario.sonar.noise = noise;
+    scenario.obstacles = {circle(0.0, 10.0, 1.0)};
+    scenario.seed = 5;
+    HandWorld one;
+    HandWorld same;
+    HandWorld other;
+    const auto ping = ping_of(scenario, one);
+    CHECK(ping->number == 1);
+    CHECK(ping->captured == one.now());
+    CHECK(ping->echo_count == 120 * 500);
+    CHECK(std::count(ping->echo.begin(), ping->echo.begin() + ping->echo_count, 0) < 3000);
+    CHECK(ping_of(scenario, same)->echo == ping->echo);
+    scenario.seed = 6;
+    CHECK(ping_of(scenario, other)->echo != ping->echo);
+  }
+}
+
+TEST_CASE("sim sonar: in the sea a ping is missing now and then, and its number with it",
+          "[hal_sim][devices]") {
+  HandWorld world;
+  Scenario scenario;
+  scenario.sonar.noise = SonarNoise::kSea;
+  scenario.sonar.beams = 2;
+  scenario.sonar.bins = 10;
+  scenario.sonar.ping_hz = 50.0;
+  SimSonar sonar{scenario, world.link()};
+  const auto ping = std::make_unique<SonarPing>();
+  std::uint64_t fresh = 0;
+  constexpr std::uint64_t kDue = 3000;
+  for (std::uint64_t i = 0; i < kDue; ++i) {
+    world.step();
+    fresh += sonar.poll(world.now(), *ping) == ReadStatus::kFresh ? 1U : 0U;
+  }
+  CHECK(ping->number > fresh);
+  CHECK(ping->number <= kDue);
+  CHECK(kDue - fresh == Approx(15).margin(14));
 }
 
 TEST_CASE("sim sonar: every ray meets an edge, and passes through none before",

@@ -168,6 +168,37 @@ TEST_CASE("emulated sonar: one fault more moves no other", "[hal_sim][emulators]
   CHECK(alone.heard.size() == beside.heard.size());
 }
 
+TEST_CASE("emulated sonar: faults of what it hears are in the images that it sends",
+          "[hal_sim][emulators]") {
+  const auto cells_of = [](FaultKind kind, double value, std::size_t beam) {
+    Listened listened{{sonar_fault(kind, 0.0, value)}};
+    listened.world.thrust_load = 1.0;
+    listened.run_until(500);
+    REQUIRE(listened.heard.size() > 2);
+    CHECK(listened.sonar.device().injections().of(kind).count == 1);
+    const auto begin =
+        listened.heard.back().begin() + 256 + static_cast<std::ptrdiff_t>(beam * 500);
+    return Bytes{begin, begin + 500};
+  };
+  const auto lit = [](const Bytes& cells) {
+    return std::count_if(cells.begin(), cells.end(), [](std::uint8_t e) { return e != 0; });
+  };
+  CHECK(lit(cells_of(FaultKind::kSaturated, 0.0, 5)) == 500);
+  CHECK(lit(cells_of(FaultKind::kInterference, 100.0, 5)) > 300);
+  CHECK(lit(cells_of(FaultKind::kFrozen, 0.0, 60)) == 4);  // the circle ahead
+  CHECK(lit(cells_of(FaultKind::kBlinded, 20.0, 60)) == 0);
+  const auto covered = [&](std::size_t beam) { return lit(cells_of(FaultKind::kWeed, 0.0, beam)); };
+  CHECK(covered(0) + covered(39) + covered(79) + covered(119) >= 25);  // 1.5 m of 30
+}
+
+TEST_CASE("emulated sonar: profiles have no faults of images", "[hal_sim][emulators]") {
+  EmulatedSonarOptions options = emulated_sonar_options(with_circle());
+  options.program.settings.sends_image = false;
+  DeltaTProgram profiles{options.program, at_ms(0)};
+  CHECK_FALSE(profiles.has_fault(FaultKind::kWeed));
+  CHECK(profiles.has_fault(FaultKind::kRepeat));
+}
+
 TEST_CASE("emulated sonar: a fault is added while it runs, if device or way can have it",
           "[hal_sim][emulators]") {
   Listened listened;

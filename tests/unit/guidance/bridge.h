@@ -18,6 +18,7 @@ inline PilotOptions pilot_options() {
   options.manoeuvres = default_manoeuvres();
   options.side_gain_m = 1.5;
   options.narrow_speed_share = 0.5;
+  options.sight = {.unseen_speed_m_s = 0.2, .bow_m = 1.4, .latency_s = 0.1};
   return options;
 }
 
@@ -35,6 +36,7 @@ struct Bridge {
   std::unique_ptr<PathRequest> request = std::make_unique<PathRequest>();
   std::unique_ptr<SonarPath> path = std::make_unique<SonarPath>();
   std::unique_ptr<Plan> plan = std::make_unique<Plan>();
+  std::unique_ptr<Coverage> water;  // none: all of it is known
 
   void ask(const Tracks& tracks, const VehicleState& state, const Eigen::Vector2d& goal,
            bool stay = false) {
@@ -51,7 +53,7 @@ struct Bridge {
     for (const PathPoint& point : points) {
       path->points[path->point_count++] = point;
     }
-    pilot->decide(at_s(0), *path, tracks, state, *plan);
+    pilot->decide(at_s(0), *path, tracks, water.get(), state, *plan);
   }
 };
 

@@ -205,14 +205,14 @@ TEST_CASE("replanner: in the world it asks once a frame, from tracks, and follow
   path->points[0] = {0.0, 0.0};
   path->points[1] = {0.0, 20.0};
   path->point_count = 2;
-  const Plan* plan = replanner.answer(s(1.1), *path, tracks, state);
+  const Plan* plan = replanner.answer(s(1.1), *path, tracks, nullptr, state);
   REQUIRE(plan != nullptr);
   CHECK(plan->id == 8);
   CHECK(plan->path_id == 8);
   CHECK(plan->path_captured == s(0.9));
   CHECK(plan->steer_by == SteerBy::kLine);
   CHECK(plan->waypoint_count == 2);
-  CHECK(replanner.answer(s(1.15), *path, tracks, state) == nullptr);
+  CHECK(replanner.answer(s(1.15), *path, tracks, nullptr, state) == nullptr);
   CHECK(replanner.request(s(1.2), tracks, s(1.0), state, {{{0.0, 20.0}}, false, {}}) ==
         nullptr);  // the same frame
   tracks.frame = 6;
@@ -246,7 +246,7 @@ TEST_CASE("replanner: without frames it is slower at once, then stays where it s
     path->points[0] = {request->start_x_m, request->start_y_m};
     path->points[1] = {request->goal_x_m, request->goal_y_m};
     path->point_count = 2;
-    return *replanner.answer(s(now_s + 0.01), *path, tracks, state);
+    return *replanner.answer(s(now_s + 0.01), *path, tracks, nullptr, state);
   };
   CHECK(plan_at(1.0).rung == PlanRung::kOnRoute);
   const Plan late = plan_at(1.6);

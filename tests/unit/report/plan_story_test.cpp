@@ -57,6 +57,11 @@ TEST_CASE("plan_story: course, speed and the obstacle it is about are named", "[
   CHECK(cli::describe(plan) ==
         "12.3 s: steers 48 deg, at 50 % speed; on the path obstacle 2, 0.31 m clear in 8 s "
         "(plan 0.15 s old)");
+  PlanRecord unseen = told(4, "slow");
+  unseen.speed_share = 0.4;
+  unseen.seen_ahead_m = 1.25;
+  CHECK(cli::describe(unseen) ==
+        "4.0 s: along the path, at 40 % speed; of the way ahead 1.2 m are seen (plan 0.15 s old)");
   plan.rung = "stop";
   plan.speed_share = 0.0;
   plan.clearance_m.reset();

@@ -266,6 +266,7 @@ TEST_CASE("plans.jsonl: a line a plan, null cost where no path was found", "[rep
                                                                         "obstacle",
                                                                         "clearance_m",
                                                                         "clearance_after_s",
+                                                                        "seen_ahead_m",
                                                                         "plan_age_s",
                                                                         "waypoints_m",
                                                                         "expansions",

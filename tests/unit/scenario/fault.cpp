@@ -21,7 +21,12 @@ TEST_CASE("fault: every kind has a name of its own, and says whether it needs by
     const std::string_view name = name_of(kind_at(i));
     CHECK(names.insert(name).second);
     const bool is_plain = name == "stall" || name == "corrupt" || name == "disconnect";
-    CHECK(needs_bytes(kind_at(i)) == !is_plain);
+    const bool is_of_echoes = name == "frozen" || name == "interference" || name == "saturated" ||
+                              name == "blinded" || name == "weed";
+    CHECK(needs_bytes(FaultDevice::kAhrs, kind_at(i)) == !is_plain);
+    CHECK(needs_bytes(FaultDevice::kSonar, kind_at(i)) == (!is_plain && !is_of_echoes));
+    CHECK(alters_pings(FaultDevice::kSonar, kind_at(i)) == is_of_echoes);
+    CHECK_FALSE(alters_pings(FaultDevice::kPosition, kind_at(i)));
     // Some device has it, under that name.
     bool is_had = false;
     for (const char* device : {"ahrs", "thruster", "sonar", "position"}) {
@@ -90,9 +95,11 @@ TEST_CASE("fault: a line of text that is none is refused with the reason", "[hal
   CHECK(refusal("ahrs") == refusal(""));
   CHECK(refusal("gps stall") == "device: must be one of: ahrs, thruster, sonar, position");
   // Of datagrams no byte is spoilt: their sum would not come out.
-  CHECK(refusal("sonar flip") ==
-        "kind: must be one of: stall, corrupt, disconnect, hang, power, reorder, foreign, repeat, "
-        "jump, range, output, average, centimetres, drop, duplicate, cut");
+  CHECK(
+      refusal("sonar flip") ==
+      "kind: must be one of: stall, corrupt, disconnect, hang, power, reorder, foreign, repeat, "
+      "jump, range, output, average, centimetres, saturated, blinded, weed, drop, duplicate, cut, "
+      "frozen, interference");
   CHECK(refusal("position late") ==
         "kind: must be one of: stall, corrupt, disconnect, flip, burst, drop, duplicate, insert, "
         "interference, cut, batch, hang, replug, power, frozen, void, week, bad_checksum, "
@@ -109,6 +116,8 @@ TEST_CASE("fault: a line of text that is none is refused with the reason", "[hal
   CHECK(refusal("ahrs flip at=1e9") == "at: must be a number from 0 to 1e+05");
   CHECK(refusal("ahrs flip value=1") == "value=1: flip has no such setting");
   CHECK(refusal("ahrs stall rate=1") == "rate=1: stall has no such setting");
+  CHECK(refusal("sonar blinded value=0") == "value: must be a number from 1 to 360");
+  CHECK(refusal("sonar interference rate=0.1") == "rate=0.1: interference has no such setting");
   CHECK(refusal("ahrs flip now") == "now: flip has no such setting");
 }
 
@@ -128,6 +137,13 @@ TEST_CASE("fault: one kind has the numbers of the device that has it", "[hal_sim
   CHECK(lost_byte.fault->rate == Approx(1e-4));
   CHECK(fault_kinds_help().find("sonar: drop (rate: chance of a datagram") != std::string::npos);
   CHECK(fault_kinds_help().find("ahrs, position: frozen (") != std::string::npos);
+  CHECK(fault_kinds_help().find("sonar: frozen (the same echoes") != std::string::npos);
+  const ParsedFault rays = parse_fault("sonar interference");
+  const ParsedFault flips = parse_fault("ahrs interference");
+  REQUIRE(rays.fault);
+  REQUIRE(flips.fault);
+  CHECK(rays.fault->value == Approx(120.0));
+  CHECK(flips.fault->rate == Approx(1e-3));
 }
 
 TEST_CASE("fault schedule: what needs bytes is nothing to a device without",
@@ -137,6 +153,12 @@ TEST_CASE("fault schedule: what needs bytes is nothing to a device without",
                            FaultDevice::kAhrs};
   CHECK(ahrs.at(0.5) == FaultKind::kNone);
   CHECK(ahrs.at(1.5) == FaultKind::kStall);
+  const FaultSchedule sonar{{{FaultDevice::kSonar, FaultKind::kDrop, 0.0, 9.0},
+                             {FaultDevice::kSonar, FaultKind::kBlinded, 1.0, 1.0, 0.0, 60.0}},
+                            FaultDevice::kSonar};
+  CHECK(sonar.at(0.5) == FaultKind::kNone);
+  CHECK(sonar.running(1.5).kind == FaultKind::kBlinded);
+  CHECK(sonar.running(1.5).value == Approx(60.0));
 }
 
 }  // namespace

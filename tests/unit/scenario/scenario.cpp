@@ -101,6 +101,31 @@ TEST_CASE("scenario: what is optional has the contract's values", "[hal_sim][sce
   CHECK(s.sonar.ping_hz == Approx(10.0));
 }
 
+TEST_CASE("scenario: detections have the errors that are given, and no others",
+          "[hal_sim][scenario]") {
+  const std::string detections = replaced(kGoodScenario, "\"beams\"", "\"detections\"");
+  const Scenario clean = scenario_of(detections);
+  CHECK(clean.sonar.scene == SonarScene::kDetections);
+  CHECK_FALSE(clean.sonar.detections.any());
+  const DetectionErrors some =
+      scenario_of(replaced(detections, "[[fault]]",
+                           "[sonar.detections]\nmissed = 0.1\nnoise_m = 0.05\n[[fault]]"))
+          .sonar.detections;
+  CHECK(some.missed == Approx(0.1));
+  CHECK(some.noise_m == Approx(0.05));
+  CHECK(some.split == Approx(0.0));
+  const DetectionErrors all =
+      scenario_of(replaced(detections, "[[fault]]",
+                           "[sonar.detections]\nmissed = 0.1\nsplit = 0.2\ndisplaced_m = 0.3\n"
+                           "false_per_ping = 0.4\nnoise_m = 0.5\n[[fault]]"))
+          .sonar.detections;
+  CHECK(all.any());
+  CHECK(all.split == Approx(0.2));
+  CHECK(all.displaced_m == Approx(0.3));
+  CHECK(all.false_per_ping == Approx(0.4));
+  CHECK(all.noise_m == Approx(0.5));
+}
+
 TEST_CASE("scenario: surge_ref stands for its steady speed, waypoints come in order",
           "[hal_sim][scenario]") {
   std::string text = replaced(kGoodScenario, "speed_m_s = 0.22", "surge_ref = 31");

@@ -170,13 +170,9 @@ TEST_CASE("scenario: environment, position, sonar and faults are refused with on
       {"gps_sigma_m = 2.0", "gps_sigma_m = -2.0",
        "s.toml:37: position.gps_sigma_m: must be at least 0 and at most 100"},
       {"scene = \"beams\"", "scene = \"beam\"",
-       "s.toml:39: sonar.scene: must be one of: obstacles, beams"},
+       "s.toml:39: sonar.scene: must be one of: obstacles, beams, detections"},
       {"noise = \"none\"", "noise = \"lake\"",
        "s.toml:40: sonar.noise: must be one of: none, tank, sea"},
-      {"noise = \"none\"", "noise = \"sea\"",
-       "s.toml:40: sonar.noise: is not simulated yet: must be none"},
-      {"noise = \"none\"", "noise = \"tank\"",
-       "s.toml:40: sonar.noise: is not simulated yet: must be none"},
       {"range_m = 20.0", "range_m = 0.0",
        "s.toml:41: sonar.range_m: must be at least 1 and at most 300"},
       {"sector_deg = 90.0", "sector_deg = 270.0",
@@ -185,6 +181,8 @@ TEST_CASE("scenario: environment, position, sonar and faults are refused with on
       {"bins = 400", "bins = 0", "s.toml:44: sonar.bins: must be from 1 to 1000"},
       {"ping_hz = 5.0", "ping_hz = 0.0",
        "s.toml:45: sonar.ping_hz: must be at least 0.1 and at most 50"},
+      {"ping_hz = 5.0", "[sonar.detections]\nmissed = 0.1",
+       "s.toml:45: sonar.detections: is of scene = \"detections\" alone"},
       {"device = \"thruster\"", "device = \"gps\"",
        "s.toml:47: fault[0].device: must be one of: ahrs, thruster, sonar, position"},
       {"kind = \"disconnect\"", "kind = \"corrupt\"",
@@ -195,7 +193,8 @@ TEST_CASE("scenario: environment, position, sonar and faults are refused with on
        "s.toml:48: fault[0].kind: must be one of: " + kBoxFaults},
       {"device = \"thruster\"\nkind = \"disconnect\"", "device = \"sonar\"\nkind = \"flip\"",
        "s.toml:48: fault[0].kind: must be one of: stall, corrupt, disconnect, hang, power, "
-       "reorder, foreign, repeat, jump, range, output, average, centimetres, drop, duplicate, cut"},
+       "reorder, foreign, repeat, jump, range, output, average, centimetres, saturated, blinded, "
+       "weed, drop, duplicate, cut, frozen, interference"},
       {"kind = \"disconnect\"", "kind = 3", "s.toml:48: fault[0].kind: must be a text"},
       {"duration_s = 5.0", "duration_s = 5.0\nrate = 0.1", "s.toml:51: fault[0].rate: unknown key"},
       {"duration_s = 5.0", "duration_s = 5.0\nvalue = 0.1",
@@ -217,6 +216,23 @@ TEST_CASE("scenario: environment, position, sonar and faults are refused with on
       {"[sonar]", "[sonar",
        "s.toml:38: toml: Error while parsing table header: expected ']', saw '\\n'"},
   });
+}
+
+TEST_CASE("scenario: errors of detections are refused with one line", "[hal_sim][scenario]") {
+  const auto refused = [](const std::string& line) {
+    const std::string text = replaced(kGoodScenario, "\"beams\"", "\"detections\"");
+    return refusal_of(replaced(text, "[[fault]]", "[sonar.detections]\n" + line + "\n[[fault]]"));
+  };
+  CHECK(refused("missed = 0.95") ==
+        "s.toml:47: sonar.detections.missed: must be at least 0 and at most 0.9");
+  CHECK(refused("split = 1.1") ==
+        "s.toml:47: sonar.detections.split: must be at least 0 and at most 1");
+  CHECK(refused("displaced_m = -0.1") ==
+        "s.toml:47: sonar.detections.displaced_m: must be at least 0 and at most 5");
+  CHECK(refused("false_per_ping = 11") ==
+        "s.toml:47: sonar.detections.false_per_ping: must be at least 0 and at most 10");
+  CHECK(refused("noise_m = \"0.1\"") == "s.toml:47: sonar.detections.noise_m: must be a number");
+  CHECK(refused("mised = 0.1") == "s.toml:47: sonar.detections.mised: unknown key");
 }
 
 TEST_CASE("scenario: a file over 1 MiB is refused unread", "[hal_sim][scenario]") {

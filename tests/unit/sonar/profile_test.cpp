@@ -2,119 +2,31 @@
 #include "low_level/sonar/profile.h"
 
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <random>
 
-#include "mid_level/base/heading.h"
 #include "mid_level/messages/sane.h"
 #include "tests/support/allocations.h"
 #include "tests/support/catch.h"
-#include "tests/unit/sonar/synthetic.h"
+#include "tests/unit/sonar/profiles.h"
 
 namespace lodesman {
 namespace {
 
+using testing::covers;
+using testing::disc_at;
+using testing::kNowhere;
+using testing::profile_of;
+using testing::seen_in;
 using testing::shipped_options;
-
-// [m] from the head along a bearing to a surface; infinite where there is none.
-using Surface = std::function<double(double bearing_rad)>;
-constexpr double kNowhere = std::numeric_limits<double>::infinity();
-
-[[nodiscard]] Surface disc(double x_m, double y_m, double radius_m) {
-  return [=](double bearing_rad) {
-    const double along = x_m * std::sin(bearing_rad) + y_m * std::cos(bearing_rad);
-    const double across = x_m * std::cos(bearing_rad) - y_m * std::sin(bearing_rad);
-    const double half = radius_m * radius_m - across * across;
-    return half >= 0.0 && along > 0.0 ? along - std::sqrt(half) : kNowhere;
-  };
-}
-
-// From one point to the other.
-[[nodiscard]] Surface wall(double x1_m, double y1_m, double x2_m, double y2_m) {
-  return [=](double bearing_rad) {
-    const double s = std::sin(bearing_rad);
-    const double c = std::cos(bearing_rad);
-    const double first = x1_m * c - y1_m * s;  // across the beam
-    const double second = x2_m * c - y2_m * s;
-    if (first * second > 0.0) {
-      return kNowhere;
-    }
-    const double part = first / (first - second);
-    const double range_m = (x1_m + part * (x2_m - x1_m)) * s + (y1_m + part * (y2_m - y1_m)) * c;
-    return range_m > 0.0 ? range_m : kNowhere;
-  };
-}
-
-[[nodiscard]] std::unique_ptr<SonarPing> profile_of(const std::vector<Surface>& surfaces,
-                                                    double range_m = 30.0,
-                                                    std::uint32_t beams = 120,
-                                                    double noise_m = 0.0) {
-  auto ping = std::make_unique<SonarPing>();
-  ping->number = 5;
-  ping->captured = Time{std::chrono::seconds{3}};
-  ping->kind = PingKind::kProfile;
-  ping->range_m = range_m;
-  ping->beams = beams;
-  ping->point_count = beams;
-  ping->set_bearings(to_rad(-60.0 + 60.0 / beams), to_rad(120.0 / beams));
-  std::mt19937 random{7};
-  std::normal_distribution<double> noise{0.0, 1.0};
-  for (std::uint32_t beam = 0; beam < beams; ++beam) {
-    double nearest_m = kNowhere;
-    for (const Surface& surface : surfaces) {
-      nearest_m = std::min(nearest_m, surface(ping->bearing_rad(beam)));
-    }
-    if (nearest_m < range_m) {
-      ping->points[beam] = {std::min(nearest_m + noise_m * noise(random), range_m), 100};
-    }
-  }
-  REQUIRE(sane(*ping));
-  return ping;
-}
-
-[[nodiscard]] std::unique_ptr<SonarObstacles> seen_in(
-    const SonarPing& ping, const SegmentationOptions& options = shipped_options()) {
-  auto seen = std::make_unique<SonarObstacles>();
-  ProfileDetector{options}.detect(ping, *seen);
-  REQUIRE(sane(*seen));
-  return seen;
-}
-
-// Whether the point lies in one of the obstacles, grown by so much.
-[[nodiscard]] bool covers(const SonarObstacles& seen, double x_m, double y_m, double margin_m) {
-  for (std::uint32_t i = 0; i < seen.count; ++i) {
-    const Obstacle& o = seen.obstacles[i];
-    const double dx = x_m - o.centre_x_m;
-    const double dy = y_m - o.centre_y_m;
-    const double along = dx * std::sin(o.angle_rad) + dy * std::cos(o.angle_rad);
-    const double across = dx * std::cos(o.angle_rad) - dy * std::sin(o.angle_rad);
-    if (std::hypot(along / (o.semi_axis_first_m + margin_m),
-                   across / (o.semi_axis_second_m + margin_m)) <= 1.0) {
-      return true;
-    }
-  }
-  return false;
-}
-
-// Every return lies in an obstacle, but for so few.
-[[nodiscard]] std::uint32_t uncovered(const SonarPing& ping, const SonarObstacles& seen,
-                                      double margin_m) {
-  std::uint32_t count = 0;
-  for (std::uint32_t beam = 0; beam < ping.beams; ++beam) {
-    const double r = ping.points[beam].range_m;
-    const double b = ping.bearing_rad(beam);
-    count += r > 0.0 && !covers(seen, r * std::sin(b), r * std::cos(b), margin_m) ? 1U : 0U;
-  }
-  return count;
-}
+using testing::Surface;
+using testing::uncovered;
 
 TEST_CASE("profile: of a disc the near side is an obstacle, where it lies", "[low_level][sonar]") {
   for (const double bearing_deg : {-50.0, -20.0, 0.0, 35.0, 55.0}) {
     for (const double distance_m : {3.0, 10.0, 25.0}) {
       const double x_m = distance_m * std::sin(to_rad(bearing_deg));
       const double y_m = distance_m * std::cos(to_rad(bearing_deg));
-      const auto ping = profile_of({disc(x_m, y_m, 1.0)});
+      const auto ping = profile_of({disc_at(x_m, y_m, 1.0)});
       const auto seen = seen_in(*ping);
       INFO(bearing_deg << " deg, " << distance_m << " m");
       REQUIRE(seen->count == 1);
@@ -186,7 +98,7 @@ TEST_CASE("profile: a round stone is one obstacle, at any range, size and number
             continue;  // hardly more than one return
           }
           const double x_m = 0.2 * distance_m;
-          const auto ping = profile_of({disc(x_m, distance_m, radius_m)}, range_m, beams);
+          const auto ping = profile_of({disc_at(x_m, distance_m, radius_m)}, range_m, beams);
           quantise(*ping);
           const auto seen = seen_in(*ping);
           INFO(beams << " beams, " << radius_m << " m of " << distance_m << " in " << range_m);
@@ -225,8 +137,8 @@ TEST_CASE("profile: an oval one is one obstacle, whichever way it lies", "[low_l
 
 TEST_CASE("profile: a stone stays one in the noise of its returns", "[low_level][sonar]") {
   for (const std::uint32_t beams : {120U, 240U, 480U}) {
-    const auto ping =
-        profile_of({disc(-3.0, 12.0, 1.0)}, 30.0, beams, shipped_options().profile.range_noise_m);
+    const auto ping = profile_of({disc_at(-3.0, 12.0, 1.0)}, 30.0, beams,
+                                 shipped_options().profile.range_noise_m);
     quantise(*ping);
     INFO(beams << " beams");
     CHECK(seen_in(*ping)->count == 1);
@@ -234,67 +146,19 @@ TEST_CASE("profile: a stone stays one in the noise of its returns", "[low_level]
 }
 
 TEST_CASE("profile: frame, time and range are the ping's", "[low_level][sonar]") {
-  const auto ping = profile_of({disc(0.0, 10.0, 1.0)});
+  const auto ping = profile_of({disc_at(0.0, 10.0, 1.0)});
   const auto seen = seen_in(*ping);
   CHECK(seen->frame == 5);
   CHECK(seen->captured == ping->captured);
   CHECK(seen->range_m == Approx(30.0));
 }
 
-TEST_CASE("profile: a wall is several short obstacles along it, with no gap between",
-          "[low_level][sonar]") {
-  for (const double slope : {0.0, 0.5, -1.0}) {
-    const auto ping = profile_of({wall(-8.0, 12.0 - 8.0 * slope, 8.0, 12.0 + 8.0 * slope)});
-    const auto seen = seen_in(*ping);
-    INFO("slope " << slope);
-    CHECK(seen->count >= 4);
-    CHECK(uncovered(*ping, *seen, 0.1) == 0);
-    for (std::uint32_t i = 0; i < seen->count; ++i) {
-      CHECK(seen->obstacles[i].semi_axis_first_m <= 1.5);
-      CHECK(seen->obstacles[i].semi_axis_second_m < 0.4);
-    }
-  }
-}
-
-TEST_CASE("profile: what stands before a wall is an obstacle of its own", "[low_level][sonar]") {
-  const auto ping = profile_of({wall(-15.0, 20.0, 15.0, 20.0), disc(1.0, 8.0, 0.5)});
-  const auto seen = seen_in(*ping);
-  REQUIRE(seen->count >= 3);
-  const Obstacle& nearest = seen->obstacles[0];
-  CHECK(nearest.centre_x_m == Approx(1.0).margin(0.3));
-  CHECK(nearest.centre_y_m == Approx(7.6).margin(0.3));
-  CHECK(nearest.semi_axis_first_m < 0.8);
-  for (std::uint32_t i = 1; i < seen->count; ++i) {
-    CHECK(seen->obstacles[i].centre_y_m == Approx(20.0).margin(0.3));
-  }
-  CHECK(uncovered(*ping, *seen, 0.15) == 0);
-}
-
 TEST_CASE("profile: two discs side by side are two, and the gap between them is free",
           "[low_level][sonar]") {
-  const auto ping = profile_of({disc(-2.0, 10.0, 0.5), disc(2.0, 10.0, 0.5)});
+  const auto ping = profile_of({disc_at(-2.0, 10.0, 0.5), disc_at(2.0, 10.0, 0.5)});
   const auto seen = seen_in(*ping);
   REQUIRE(seen->count == 2);
   CHECK_FALSE(covers(*seen, 0.0, 9.5, 0.5));
-}
-
-TEST_CASE("profile: a corner is followed by short pieces", "[low_level][sonar]") {
-  const auto ping = profile_of({wall(-6.0, 8.0, 0.0, 14.0), wall(0.0, 14.0, 6.0, 8.0)});
-  const auto seen = seen_in(*ping);
-  CHECK(uncovered(*ping, *seen, 0.15) == 0);
-  CHECK_FALSE(covers(*seen, 0.0, 9.0, 0.5));  // the water within it stays free
-}
-
-TEST_CASE("profile: noise of its returns does not part a surface", "[low_level][sonar]") {
-  for (const std::uint32_t beams : {120U, 240U, 480U}) {
-    const auto ping =
-        profile_of({disc(0.0, 15.0, 2.0)}, 30.0, beams, shipped_options().profile.range_noise_m);
-    SegmentationOptions options = shipped_options();
-    options.max_obstacle_length_m = 10.0;
-    options.min_fill = 0.0;
-    INFO(beams << " beams");
-    CHECK(seen_in(*ping, options)->count == 1);
-  }
 }
 
 TEST_CASE("profile: a return alone is an outlier, two side by side are an obstacle",
@@ -325,7 +189,7 @@ TEST_CASE("profile: what is nearer than the ring-down is none", "[low_level][son
 }
 
 TEST_CASE("profile: bearings are the ping's own", "[low_level][sonar]") {
-  const auto ping = profile_of({disc(0.0, 10.0, 1.0)});
+  const auto ping = profile_of({disc_at(0.0, 10.0, 1.0)});
   ping->set_bearings(to_rad(10.0), to_rad(0.5));  // beams 54 to 65 look at 37 to 42.5 degrees
   const auto seen = seen_in(*ping);
   REQUIRE(seen->count == 1);
@@ -336,7 +200,7 @@ TEST_CASE("profile: bearings are the ping's own", "[low_level][sonar]") {
 
 TEST_CASE("profile: an image is none, nor is a ping that breaks its own ranges",
           "[low_level][sonar]") {
-  const auto ping = profile_of({disc(0.0, 10.0, 1.0)});
+  const auto ping = profile_of({disc_at(0.0, 10.0, 1.0)});
   SECTION("as it is") {
     CHECK(seen_in(*ping)->count > 0);
     return;

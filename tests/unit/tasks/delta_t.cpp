@@ -151,6 +151,31 @@ TEST_CASE("delta_t task: an echo is placed by the odometry at its own time", "[l
   CHECK(echo_placed_at_m(milliseconds{300}, 5.0) == Approx(at_once_m - 0.3 + 5.0));
 }
 
+TEST_CASE("delta_t task: what was seen of the water is told in the world, before the tracks",
+          "[low_level][tasks]") {
+  DeltaT delta_t{shipped_options()};
+  Reader<Coverage> coverage{delta_t.board->coverage};
+  VehicleState here;
+  here.valid_at = kStart;
+  here.x_m = here.odometry_x_m + 300.0;
+  here.y_m = here.odometry_y_m - 50.0;
+  delta_t.state.publish(here, kStart);
+  delta_t.task.step(kStart);
+  const auto* water = coverage.latest();
+  REQUIRE(water != nullptr);
+  CHECK(water->value.frame == delta_t.tracks.latest()->value.frame);
+  CHECK(water->value.captured == delta_t.tracks.latest()->value.captured);
+  CHECK(water->value.at(300.0, -49.5) == WaterState::kFree);
+  CHECK(water->value.at(0.0, 0.5) == WaterState::kUnknown);
+}
+
+TEST_CASE("delta_t task: of a known scene nothing is unseen", "[low_level][tasks]") {
+  DeltaT delta_t{with_known_scene()};
+  delta_t.estimate(kStart);
+  REQUIRE(delta_t.frames_after_step(kStart) == 1);
+  CHECK(Reader<Coverage>{delta_t.board->coverage}.latest() == nullptr);
+}
+
 TEST_CASE("delta_t task: a known scene is drawn at a fresh estimate or not at all",
           "[low_level][tasks]") {
   DeltaT delta_t{with_known_scene()};

@@ -12,72 +12,15 @@
 #include "mid_level/messages/sane.h"
 #include "tests/support/allocations.h"
 #include "tests/support/catch.h"
+#include "tests/unit/tracking/tracker_bench.h"
 
 namespace lodesman {
 namespace {
 
-constexpr double kTrackerPing_s = 0.1;
-
-struct Disc {
-  double x_m;
-  double y_m;
-  double radius_m;
-};
-
-// A sonar with a tracker behind it, and what it would hear of discs: the near side of each.
-struct Bench {
-  std::unique_ptr<SonarPing> ping = std::make_unique<SonarPing>();
-  std::unique_ptr<SonarObstacles> seen = std::make_unique<SonarObstacles>();
-  std::unique_ptr<Tracks> tracks = std::make_unique<Tracks>();
-  std::unique_ptr<Tracker> tracker = std::make_unique<Tracker>(1.0);
-  VehiclePose pose{};
-  double t_s = 10.0;
-
-  Bench() {
-    ping->range_m = 30.0;
-    ping->make_image(120, 500, 2.0 * std::numbers::pi / 3.0);
-  }
-
-  void hear(const std::vector<Disc>& discs) {
-    t_s += kTrackerPing_s;
-    ping->number += 1;
-    ping->captured = Time{from_seconds(t_s)};
-    seen->captured = ping->captured;
-    seen->range_m = ping->range_m;
-    seen->count = 0;
-    for (const Disc& disc : discs) {
-      const Eigen::Vector2d at = pose.to_vehicle({{disc.x_m, disc.y_m}}).xy_m;
-      if (std::abs(std::atan2(at.x(), at.y())) < ping->sector_rad / 2.0 && at.norm() < 30.0) {
-        Obstacle& o = seen->obstacles[seen->count++];
-        o = {};
-        const Eigen::Vector2d near_side = at * (1.0 - 0.8 * disc.radius_m / at.norm());
-        o.centre_x_m = near_side.x();
-        o.centre_y_m = near_side.y();
-        o.semi_axis_first_m = 0.2 * disc.radius_m;
-        o.semi_axis_second_m = disc.radius_m;
-        o.angle_rad = std::atan2(at.x(), at.y());
-      }
-    }
-    tracker->see(*ping, *seen, pose, *tracks);
-  }
-
-  [[nodiscard]] const Track* track_at(double x_m, double y_m) const {
-    const Track* best = nullptr;
-    double best_m = 1.0;
-    for (std::uint32_t i = 0; i < tracks->count; ++i) {
-      const double off_m = edge_distance_m(tracks->tracks[i].shape, {{x_m, y_m}});
-      if (off_m < best_m) {
-        best_m = off_m;
-        best = &tracks->tracks[i];
-      }
-    }
-    return best;
-  }
-};
-
-[[nodiscard]] double speed_of(const Track& track) {
-  return std::hypot(track.velocity_x_m_s, track.velocity_y_m_s);
-}
+using Bench = testing::TrackerBench;
+using testing::Disc;
+using testing::kTrackerPing_s;
+using testing::speed_of;
 
 }  // namespace
 
@@ -138,6 +81,53 @@ TEST_CASE("tracker: what is gone from where it looks is gone", "[low_level][trac
   }
   CHECK(bench.track_at(0.0, 8.0) == nullptr);
   CHECK(bench.track_at(5.0, 12.0) != nullptr);
+}
+
+TEST_CASE("tracker: in blind beams what was seen is remembered, and no water is free",
+          "[low_level][tracking]") {
+  Bench bench;
+  for (int i = 0; i < 40; ++i) {
+    bench.hear({{0.0, 8.0, 0.5}, {5.0, 12.0, 0.5}});
+  }
+  bench.blind_beams(0.0, 0.2);
+  for (int i = 0; i < 100; ++i) {
+    bench.hear({});
+  }
+  CHECK(bench.track_at(0.0, 8.0) != nullptr);
+  CHECK(bench.track_at(5.0, 12.0) == nullptr);  // where it hears, what is gone is gone
+  Bench fresh;
+  fresh.blind_beams(0.0, 0.2);
+  for (int i = 0; i < 20; ++i) {
+    fresh.hear({});
+  }
+  CHECK(fresh.tracker->water().state({0.0, 8.0}) == WaterState::kUnknown);
+  CHECK(fresh.tracker->water().state({5.0, 8.0}) == WaterState::kFree);
+}
+
+TEST_CASE("tracker: one that sails into blind beams goes on, with more doubt",
+          "[low_level][tracking]") {
+  Bench bench;
+  bench.blind_beams(0.0, 0.15);
+  double doubt_before_m2 = 0.0;
+  for (int i = 0; i < 70; ++i) {
+    const double x_m = -5.0 + 0.07 * i;
+    const bool is_heard = std::abs(std::atan2(x_m, 10.0)) > 0.15;
+    bench.hear(is_heard ? std::vector<Disc>{{x_m, 10.0, 0.5}} : std::vector<Disc>{});
+    if (i == 40) {
+      doubt_before_m2 = bench.track_at(x_m, 10.0)->place_xx_m2;
+    }
+  }
+  const Track* track = bench.track_at(-0.17, 10.0);
+  REQUIRE(track != nullptr);
+  CHECK(track->velocity_x_m_s == Approx(0.7).margin(0.2));
+  CHECK(track->place_xx_m2 > 2.0 * doubt_before_m2);
+}
+
+TEST_CASE("tracker: what is found in blind beams is there all the same", "[low_level][tracking]") {
+  Bench bench;
+  bench.blind_beams(0.0, 0.3);
+  bench.hear({{0.0, 3.0, 0.5}});
+  CHECK(bench.track_at(0.0, 3.0) != nullptr);
 }
 
 TEST_CASE("tracker: one that passes behind a stone is the same one after",
@@ -223,6 +213,23 @@ TEST_CASE("tracker: a wall is what rests, from its first sight", "[low_level][tr
       CHECK(speed_of(bench.tracks->tracks[k]) < 1e-9);
     }
   }
+}
+
+TEST_CASE("tracker: behind a return of which no obstacle came nothing is known to be free",
+          "[low_level][tracking]") {
+  Bench bench;
+  bench.ping->make_profile(120, bench.ping->sector_rad);
+  for (std::uint32_t beam = 52; beam < 68; ++beam) {
+    bench.ping->points[beam].range_m = 10.0;
+  }
+  for (int i = 0; i < 20; ++i) {
+    bench.hear({});
+  }
+  const EvidenceGrid& water = bench.tracker->water();
+  CHECK(water.state({0.0, 9.0}) == WaterState::kFree);
+  CHECK(water.state({0.0, 11.0}) == WaterState::kUnknown);
+  CHECK(water.state({0.0, 25.0}) == WaterState::kUnknown);
+  CHECK(water.state({12.0, 20.0}) == WaterState::kFree);  // beams without a return
 }
 
 TEST_CASE("tracker: another one that goes on with its tracks knows the same",

@@ -16,7 +16,7 @@ using namespace cli;
 using std::chrono::milliseconds;
 
 constexpr Time kStart{std::chrono::seconds{100}};
-constexpr std::size_t kOtherChannels = 25;  // than of devices and tasks
+constexpr std::size_t kOtherChannels = 26;  // than of devices and tasks
 
 struct Boat {
   std::unique_ptr<Blackboard> board = std::make_unique<Blackboard>();

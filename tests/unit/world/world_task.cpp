@@ -138,6 +138,19 @@ TEST_CASE("world task: thrust by hand moves the boat before a mission, and no sc
   CHECK(bench.task.truth().y_m > moved_m + 0.05);  // it is afloat, and goes on
 }
 
+TEST_CASE("world task: what devices sense says how hard the thrusters work", "[hal_sim][world]") {
+  Bench bench;
+  const auto load_under = [&bench](ThrustCommand command) {
+    REQUIRE(bench.box.command(command, bench.now) == CommandStatus::kTaken);
+    bench.run_for(milliseconds{20});
+    return bench.samples.latest()->value.thrust_load;
+  };
+  CHECK(load_under(kNeutralThrust) == Approx(0.0).margin(1e-3));
+  CHECK(load_under({255, 255}) == Approx(1.0));
+  CHECK(load_under({255, 128}) == Approx(0.5));
+  CHECK(load_under({64, 192}) == Approx(0.25).margin(0.01));  // half astern, half ahead
+}
+
 TEST_CASE("world task: late and missed steps lose no time", "[hal_sim][world]") {
   Bench regular;
   Bench late;
