@@ -108,7 +108,8 @@ TEST_CASE("delta_t task: from profiles with errors a mover is followed, and a st
       obstacles, {.missed = 0.1, .split = 0.1, .displaced_m = 0.05, .noise_m = 0.03}, 0.2};
   int pings = 0;
   int followed = 0;
-  int stone_known = 0;
+  int stone_lost = 0;
+  int longest_lost = 0;
   std::set<std::uint32_t> ids;
   while (voyage.time_s < 14.0) {
     const Tracks& tracks = voyage.ping();
@@ -123,11 +124,12 @@ TEST_CASE("delta_t task: from profiles with errors a mover is followed, and a st
       ++followed;
       ids.insert(track->id);
     }
-    stone_known += track_at(tracks, {{4.0, 13.6}}, 0.5) != nullptr ? 1 : 0;
+    stone_lost = track_at(tracks, {{4.0, 13.6}}, 0.5) != nullptr ? 0 : stone_lost + 1;
+    longest_lost = std::max(longest_lost, stone_lost);
   }
   CHECK(followed > 0.95 * pings);
   CHECK(ids.size() == 1);
-  CHECK(stone_known == pings);
+  CHECK(longest_lost <= 1);  // a sonar misses it for three pings at most; two are no evidence
 }
 
 TEST_CASE("delta_t task: sailed along, a quay in profiles rests", "[low_level][tasks]") {
