@@ -12,6 +12,42 @@ constexpr double kSubpixels = 1 << kShift;
 constexpr double kFarPx = 20000.0;  // coordinates are cut here
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 constexpr int kTextCasing = 3;  // [px] of the dark lines behind those of 1 px
+constexpr double kDashPx = 6.0;
+constexpr double kGapPx = 6.0;
+constexpr double kLeastDashPx = 0.5;  // so that rounding never stands still
+
+// Whether anything of a dash that begins or ends there may be in the picture.
+[[nodiscard]] bool is_near(const cv::Mat& image, const cv::Point& at) {
+  constexpr int kBeside = 16 << kShift;
+  return at.x > -kBeside && at.y > -kBeside && at.x < (image.cols << kShift) + kBeside &&
+         at.y < (image.rows << kShift) + kBeside;
+}
+
+// Those of an outline that may show, from its first corner on.
+[[nodiscard]] std::vector<Outline> dashes_of(const cv::Mat& image, const Outline& outline,
+                                             bool closed) {
+  std::vector<Outline> dashes;
+  const std::size_t sides = outline.size() < 2 ? 0 : outline.size() - (closed ? 0 : 1);
+  double gone_px = 0.0;  // along the outline
+  for (std::size_t i = 0; i < sides; ++i) {
+    const cv::Point2d from = outline[i];
+    const cv::Point2d way = cv::Point2d{outline[(i + 1) % outline.size()]} - from;
+    const double length_px = std::hypot(way.x, way.y) / kSubpixels;
+    const auto at = [&](double px) { return cv::Point{from + way * (px / length_px)}; };
+    for (double px = 0.0; px < length_px;) {
+      const double in_period = std::fmod(gone_px + px, kDashPx + kGapPx);
+      const bool is_dash = in_period < kDashPx;
+      const double left_px = (is_dash ? kDashPx : kDashPx + kGapPx) - in_period;
+      const double end_px = std::min(length_px, px + std::max(left_px, kLeastDashPx));
+      if (is_dash && (is_near(image, at(px)) || is_near(image, at(end_px)))) {
+        dashes.push_back({at(px), at(end_px)});
+      }
+      px = end_px;
+    }
+    gone_px += length_px;
+  }
+  return dashes;
+}
 
 }  // namespace
 
@@ -21,15 +57,20 @@ cv::Scalar bgr(const ViewColour& colour) {
 }
 
 cv::Point subpixel(const SonarView& view, double x_m, double y_m) {
-  const double column = std::clamp(view.column_of(x_m), -kFarPx, kFarPx);
-  const double row = std::clamp(view.row_of(y_m), -kFarPx, kFarPx);
-  return {static_cast<int>(std::lround(column * kSubpixels)),
-          static_cast<int>(std::lround(row * kSubpixels))};
+  const auto cut = [](double px) {  // what is not a number is far away too
+    const double near = px > -kFarPx ? std::min(px, kFarPx) : -kFarPx;
+    return static_cast<int>(std::lround(near * kSubpixels));
+  };
+  return {cut(view.column_of(x_m)), cut(view.row_of(y_m))};
 }
 
 cv::Point whole_pixel(const SonarView& view, double x_m, double y_m) {
   const cv::Point fine = subpixel(view, x_m, y_m);
   return {fine.x >> kShift, fine.y >> kShift};
+}
+
+VehiclePoint place_of(const SonarView& view, int column, int row) {
+  return view.to_vehicle({static_cast<std::int16_t>(column), static_cast<std::int16_t>(row)});
 }
 
 cv::Mat fan_mask() {
@@ -64,6 +105,15 @@ void draw_outline(cv::Mat& image, const Outline& outline, bool closed, const Vie
   const std::vector<Outline> one{outline};
   cv::polylines(image, one, closed, bgr(view_colours::kBlack), width + 2, cv::LINE_AA, kShift);
   cv::polylines(image, one, closed, bgr(colour), width, cv::LINE_AA, kShift);
+}
+
+void draw_dashed(cv::Mat& image, const Outline& outline, bool closed, const ViewColour& colour,
+                 int width) {
+  const std::vector<Outline> dashes = dashes_of(image, outline, closed);
+  if (width > 1) {  // a fine line would be lost on it
+    cv::polylines(image, dashes, false, bgr(view_colours::kBlack), width + 2, cv::LINE_AA, kShift);
+  }
+  cv::polylines(image, dashes, false, bgr(colour), width, cv::LINE_AA, kShift);
 }
 
 void tint(cv::Mat& image, const cv::Mat& fan, const cv::Mat& mask, const ViewColour& colour,
@@ -138,13 +188,12 @@ void fill_shape(cv::Mat& mask, const SonarView& view, const Obstacle& o, bool pr
   cv::polylines(mask, std::vector<Outline>{line}, closed, set, width, cv::LINE_8, kShift);
 }
 
-void outline_body(cv::Mat& image, const SonarView& view, const Obstacle& o,
-                  const ViewColour& colour, int width) {
-  const bool round = o.shape == ObstacleShape::kEllipse;
-  draw_outline(image,
-               round ? ellipse_outline(view, o, o.semi_axis_first_m, o.semi_axis_second_m)
-                     : wall_outline(view, o),
-               o.shape != ObstacleShape::kPolyline, colour, width);
+Outline body_outline(const SonarView& view, const Obstacle& o) {
+  return o.shape == ObstacleShape::kEllipse
+             ? ellipse_outline(view, o, o.semi_axis_first_m, o.semi_axis_second_m)
+             : wall_outline(view, o);
 }
+
+bool is_closed(const Obstacle& o) { return o.shape != ObstacleShape::kPolyline; }
 
 }  // namespace lodesman::view

@@ -28,6 +28,9 @@ using Outline = std::vector<cv::Point>;  // in sixteenths of a pixel
 [[nodiscard]] cv::Point subpixel(const SonarView& view, double x_m, double y_m);
 [[nodiscard]] cv::Point whole_pixel(const SonarView& view, double x_m, double y_m);
 
+// The vehicle frame at a pixel's centre.
+[[nodiscard]] VehiclePoint place_of(const SonarView& view, int column, int row);
+
 [[nodiscard]] cv::Mat fan_mask();    // 1 in the fan, exactly as the planner sees it
 [[nodiscard]] cv::Mat empty_mask();  // of the view's size
 
@@ -40,6 +43,9 @@ void write_text(cv::Mat& image, const std::string& text, cv::Point at, double si
 // A line round the outline, or along it, on a black casing.
 void draw_outline(cv::Mat& image, const Outline& outline, bool closed, const ViewColour& colour,
                   int width);
+// Dashes of it, from its first corner on: what is less sure.
+void draw_dashed(cv::Mat& image, const Outline& outline, bool closed, const ViewColour& colour,
+                 int width);
 // Tints a mask's area within the fan.
 void tint(cv::Mat& image, const cv::Mat& fan, const cv::Mat& mask, const ViewColour& colour,
           double opacity);
@@ -57,8 +63,8 @@ void paint(cv::Mat& image, const cv::Mat& fan, const cv::Mat& mask, const ViewCo
 [[nodiscard]] Outline wall_outline(const SonarView& view, const Obstacle& wall);
 // Sets the pixels of the obstacle, or of its protection zone.
 void fill_shape(cv::Mat& mask, const SonarView& view, const Obstacle& o, bool protection);
-// The body of any obstacle, a line of its own width in front of nothing.
-void outline_body(cv::Mat& image, const SonarView& view, const Obstacle& o,
-                  const ViewColour& colour, int width);
+// The body of any obstacle.
+[[nodiscard]] Outline body_outline(const SonarView& view, const Obstacle& o);
+[[nodiscard]] bool is_closed(const Obstacle& o);
 
 }  // namespace lodesman::view

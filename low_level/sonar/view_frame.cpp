@@ -79,7 +79,7 @@ void write_caption(cv::Mat& image, std::string_view caption) {
 void draw_rings(cv::Mat& image, const ViewPicture& picture) {
   const SonarView view{picture.range_m};
   const cv::Scalar colour =
-      bgr(picture.shows_the_known() ? view_colours::kGreyRing : view_colours::kRing);
+      bgr(picture.is_chart() ? view_colours::kChartRing : view_colours::kRing);
   const cv::Point apex{kApexColumn, kApexRow};
   const double step_m = ring_step_m(picture.range_m);
   const int rings = static_cast<int>(std::floor(picture.range_m / step_m + 1e-9));

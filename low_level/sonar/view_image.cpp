@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "low_level/sonar/view_image.h"
 
-#include <cmath>
 #include <fstream>
 
 #include "low_level/sonar/image_codec.h"
@@ -10,13 +9,16 @@
 namespace lodesman {
 namespace {
 
+// [m] Of any sonar's range setting.
+constexpr double kShortest_m = 1e-3;
+constexpr double kLongest_m = 1e5;
+
 cv::Mat draw(const ViewPicture& picture) {
   const cv::Mat fan = view::fan_mask();
   cv::Mat image{kViewRows, kViewColumns, CV_8UC3, view::bgr(view_colours::kOutside)};
-  image.setTo(view::bgr(picture.shows_the_known() ? view_colours::kUnheard : view_colours::kWater),
-              fan);
-  view::draw_ping(image, fan, picture);
-  view::draw_water(image, fan, picture);
+  image.setTo(view::bgr(picture.is_chart() ? view_colours::kUnheard : view_colours::kWater), fan);
+  const cv::Mat heard = view::draw_ping(image, fan, picture);
+  view::draw_water(image, fan, heard, picture);
   view::draw_rings(image, picture);
   const std::vector<view::TrackShown> tracks = view::shown_tracks(picture);
   view::draw_what_rests(image, picture, tracks);
@@ -42,7 +44,7 @@ bool save(const std::filesystem::path& file, const ViewPicture& picture, ViewFor
 
 std::vector<std::uint8_t> encode_view(const ViewPicture& picture, ViewFormat format) {
   std::vector<std::uint8_t> bytes;
-  if (!std::isfinite(picture.range_m) || picture.range_m <= 0.0) {
+  if (!(picture.range_m >= kShortest_m && picture.range_m <= kLongest_m)) {
     return bytes;
   }
   try {

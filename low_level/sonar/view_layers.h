@@ -24,17 +24,20 @@ struct TrackShown {
 [[nodiscard]] std::vector<TrackShown> shown_tracks(const ViewPicture& picture);
 
 // The echoes of an image, or the returns of a profile; nothing of a ping that breaks its ranges.
-void draw_ping(cv::Mat& image, const cv::Mat& fan, const ViewPicture& picture);
-// A tint where water is known to be free, another where it is known not to be.
-void draw_water(cv::Mat& image, const cv::Mat& fan, const ViewPicture& picture);
+// Gives which pixels a beam looks at, not 0; empty where none does.
+[[nodiscard]] cv::Mat draw_ping(cv::Mat& image, const cv::Mat& fan, const ViewPicture& picture);
+// Shades and hatches what nobody has seen, and tints what is known not to be free. `heard`: by this
+// ping, as draw_ping says.
+void draw_water(cv::Mat& image, const cv::Mat& fan, const cv::Mat& heard,
+                const ViewPicture& picture);
 void draw_rings(cv::Mat& image, const ViewPicture& picture);
 // One area of all of it.
 void draw_what_rests(cv::Mat& image, const ViewPicture& picture,
                      const std::vector<TrackShown>& tracks);
-// Zones and bodies; of what is known beyond one ping only their edges.
+// Zones and bodies; on a chart only their edges.
 void draw_obstacles(cv::Mat& image, const cv::Mat& fan, const ViewPicture& picture);
-// Of each its number, the doubt about its place and, where it surely moves, its way in the next
-// seconds.
+// Of each its number and the doubt about its place; dashed, or where it surely moves with its way
+// in the next seconds.
 void draw_what_moves(cv::Mat& image, const ViewPicture& picture,
                      const std::vector<TrackShown>& tracks);
 void draw_path(cv::Mat& image, const ViewPicture& picture);
@@ -48,5 +51,6 @@ void draw_goal_mark(cv::Mat& image, cv::Point at, bool in_view);
 void draw_path_line(cv::Mat& image, const std::vector<cv::Point>& pixels);
 void draw_way(cv::Mat& image, cv::Point from, cv::Point to);  // an arrow, in sixteenths
 void draw_doubt(cv::Mat& image, const Outline& ellipse);
+void hatch(cv::Vec3b& pixel, int column, int row);
 
 }  // namespace lodesman::view

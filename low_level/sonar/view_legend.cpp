@@ -9,7 +9,7 @@ namespace lodesman::view {
 namespace {
 
 constexpr int kLeft = 12;
-constexpr int kRight = 716;
+constexpr int kRight = 714;
 constexpr int kSwatchPx = 18;
 constexpr int kRowPx = 19;
 
@@ -25,12 +25,28 @@ class Column {
     name(text);
   }
   void tinted(const ViewColour& tint, double opacity, const char* text) {
-    const cv::Scalar grey = cv::Scalar::all(kSample);
-    cv::rectangle(image_, box(), grey * (1.0 - opacity) + bgr(tint) * opacity, cv::FILLED);
+    const cv::Scalar fill = bgr(view_colours::kUnheard) * (1.0 - opacity) + bgr(tint) * opacity;
+    cv::rectangle(image_, box(), fill, cv::FILLED);
+    cv::rectangle(image_, box(), bgr(tint), 1);
     name(text);
   }
   void outline(const ViewColour& colour, int width, const char* text) {
     draw_outline(image_, corners(), true, colour, width);
+    name(text);
+  }
+  void dashed(const ViewColour& colour, const char* text) {
+    draw_dashed(image_, corners(), true, colour, 2);
+    name(text);
+  }
+  void hatched(const char* text) {
+    const cv::Rect area = box();
+    for (int row = area.y; row < area.y + area.height; ++row) {
+      for (int column = area.x; column < area.x + area.width; ++column) {
+        cv::Vec3b& pixel = image_.at<cv::Vec3b>(row, column);
+        pixel = cv::Vec3b::all(kSample);
+        hatch(pixel, column, row);
+      }
+    }
     name(text);
   }
   void doubt(const char* text) {
@@ -55,7 +71,7 @@ class Column {
   }
 
  private:
-  static constexpr double kSample = 60.0;  // a faint echo's grey
+  static constexpr std::uint8_t kSample = 40;  // a faint echo's grey
 
   [[nodiscard]] static cv::Point fine(int column, int row) {
     return {column << kShift, row << kShift};
@@ -93,23 +109,27 @@ void name_path(Column& column, const ViewPicture& picture) {
   }
 }
 
-void name_what_is_seen(Column& column, const ViewPicture& picture) {
+void name_what_is_bright(Column& column, const ViewPicture& picture) {
+  if (picture.bright_from > 0.0) {
+    const ViewColour& colour = picture.is_chart() ? view_colours::kBrightest : view_colours::kEcho;
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "echo of %g or more", picture.bright_from);
+    column.area(colour, colour, text.data());
+  }
+}
+
+void name_areas(Column& column, const ViewPicture& picture) {
   if (picture.obstacles != nullptr) {
     column.area(view_colours::kObstacle, view_colours::kWhite, "obstacle");
   }
   if (picture.zones != nullptr) {
     column.area(view_colours::kZone, view_colours::kZoneEdge, "protection zone");
   }
-  if (picture.bright_from > 0.0) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "echo of %g or more", picture.bright_from);
-    column.area(view_colours::kEcho, view_colours::kEcho, text.data());
-  }
 }
 
 void name_outlines(Column& column, const ViewPicture& picture) {
   if (picture.zones != nullptr) {
-    column.area(view_colours::kOutside, view_colours::kZoneEdge, "protection zone");
+    column.outline(view_colours::kZone, 1, "protection zone");
   }
   if (picture.obstacles != nullptr) {
     column.outline(view_colours::kWhite, 1, "seen in this ping");
@@ -117,16 +137,15 @@ void name_outlines(Column& column, const ViewPicture& picture) {
 }
 
 void name_what_is_known(Column& column, const ViewPicture& picture) {
+  if (picture.water) {
+    column.hatched("not seen");
+  }
   if (picture.tracks != nullptr) {
     column.doubt("its place, 2 sigma");
     column.way("its way in 5 s");
-    column.outline(view_colours::kTrack, 2, "moves or may");
-    column.outline(view_colours::kOccupied, 1, "rests");
-  }
-  if (picture.water) {
-    column.tinted(view_colours::kOccupied, 0.0, "unknown");
-    column.tinted(view_colours::kOccupied, view_colours::kOccupiedOpacity, "occupied");
-    column.tinted(view_colours::kFree, view_colours::kFreeOpacity, "free water");
+    column.outline(view_colours::kTrack, 2, "moves");
+    column.dashed(view_colours::kTrack, "may move");
+    column.tinted(view_colours::kRests, view_colours::kRestsOpacity, "rests");
   }
 }
 
@@ -135,12 +154,13 @@ void name_what_is_known(Column& column, const ViewPicture& picture) {
 void draw_legend(cv::Mat& image, const ViewPicture& picture) {
   Column left{image, kLeft};
   name_path(left, picture);
-  if (picture.shows_the_known()) {
+  name_what_is_bright(left, picture);
+  if (picture.is_chart()) {
     name_outlines(left, picture);
     Column right{image, kRight};
     name_what_is_known(right, picture);
   } else {
-    name_what_is_seen(left, picture);
+    name_areas(left, picture);
   }
 }
 

@@ -20,26 +20,35 @@ namespace {
   return area;
 }
 
+void draw_outlines(cv::Mat& image, const ViewPicture& picture) {
+  const SonarView view{picture.range_m};
+  const std::uint32_t count = std::min<std::uint32_t>(picture.obstacles->count, kMaxObstacles);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Obstacle& o = picture.obstacles->obstacles[i];
+    if (is_drawable(o)) {
+      draw_outline(image, body_outline(view, o), is_closed(o), view_colours::kWhite, 1);
+    }
+  }
+}
+
 }  // namespace
 
 void draw_obstacles(cv::Mat& image, const cv::Mat& fan, const ViewPicture& picture) {
   const SonarView view{picture.range_m};
+  if (picture.is_chart()) {
+    paint(image, fan, area_of(view, picture.zones, true), view_colours::kZone, view_colours::kZone,
+          0.0);
+    if (picture.obstacles != nullptr) {
+      draw_outlines(image, picture);
+    }
+    return;
+  }
   // Over echoes both are glass, so that one sees what was segmented.
   const bool glass = picture.ping != nullptr;
-  const bool edges = picture.shows_the_known();
   paint(image, fan, area_of(view, picture.zones, true), view_colours::kZone,
-        view_colours::kZoneEdge, edges ? 0.0 : (glass ? 0.45 : 1.0));
-  if (!edges) {
-    paint(image, fan, area_of(view, picture.obstacles, false), view_colours::kObstacle,
-          glass ? view_colours::kObstacle : view_colours::kWhite, glass ? 0.35 : 1.0);
-  } else if (picture.obstacles != nullptr) {
-    for (std::uint32_t i = 0; i < std::min<std::uint32_t>(picture.obstacles->count, kMaxObstacles);
-         ++i) {
-      if (is_drawable(picture.obstacles->obstacles[i])) {
-        outline_body(image, view, picture.obstacles->obstacles[i], view_colours::kWhite, 1);
-      }
-    }
-  }
+        view_colours::kZoneEdge, glass ? 0.45 : 1.0);
+  paint(image, fan, area_of(view, picture.obstacles, false), view_colours::kObstacle,
+        glass ? view_colours::kObstacle : view_colours::kWhite, glass ? 0.35 : 1.0);
 }
 
 }  // namespace lodesman::view

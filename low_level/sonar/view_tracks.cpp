@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "low_level/sonar/known_obstacles.h"
@@ -18,7 +19,7 @@ constexpr double kDoubtSigmas = 2.0;    // of its place
 constexpr double kLongestWay_s = 60.0;  // for which a track is foreseen
 constexpr double kShortestWayPx = 4.0;  // less is a head without an arrow
 constexpr double kFarthestNumberPx = 40.0;
-constexpr double kSubpixels = 1 << kShift;
+constexpr double kFastestWritten_m_s = 999.0;
 
 [[nodiscard]] bool is_track(const Track& track) {
   return is_drawable(track.shape) && std::isfinite(track.velocity_x_m_s) &&
@@ -27,8 +28,11 @@ constexpr double kSubpixels = 1 << kShift;
          std::isfinite(track.velocity_xx_m2_s2) && std::isfinite(track.velocity_yy_m2_s2);
 }
 
+[[nodiscard]] double seconds_of(Time at) { return to_seconds(at.time_since_epoch()); }
+
 [[nodiscard]] TrackShown shown_track(const Track& track, Time at, const VehiclePose& pose) {
-  const double ahead_s = std::clamp(to_seconds(at - track.last_seen), 0.0, kLongestWay_s);
+  const double ahead_s =
+      std::clamp(seconds_of(at) - seconds_of(track.last_seen), 0.0, kLongestWay_s);
   Obstacle there = track.shape;
   there.centre_x_m += ahead_s * track.velocity_x_m_s;
   there.centre_y_m += ahead_s * track.velocity_y_m_s;
@@ -62,36 +66,40 @@ constexpr double kSubpixels = 1 << kShift;
 }
 
 void draw_mover(cv::Mat& image, const SonarView& view, const TrackShown& one) {
-  outline_body(image, view, one.body, view_colours::kTrack, one.surely_moves ? 2 : 1);
+  const Outline body = body_outline(view, one.body);
+  const Outline doubt = doubt_of(view, one);
+  if (!one.surely_moves) {
+    draw_dashed(image, body, is_closed(one.body), view_colours::kTrack, 2);
+    draw_dashed(image, doubt, true, view_colours::kTrack, 1);
+    return;
+  }
+  draw_doubt(image, doubt);
+  draw_outline(image, body, is_closed(one.body), view_colours::kTrack, 2);
   const Eigen::Vector2d from{one.body.centre_x_m, one.body.centre_y_m};
   const Eigen::Vector2d to = from + kWay_s * one.velocity_m_s;
-  if (one.surely_moves && (to - from).norm() > kShortestWayPx * view.metres_per_pixel()) {
+  if ((to - from).norm() > kShortestWayPx * view.metres_per_pixel()) {
     draw_way(image, subpixel(view, from.x(), from.y()), subpixel(view, to.x(), to.y()));
   }
-  draw_doubt(image, doubt_of(view, one));  // on top: it may be small
 }
 
 // Numbers beside what they name, each where it covers none of the others; one that finds no such
 // place is left out.
 class Numbers {
  public:
-  // `to_right`: rather there than to the left.
-  void write(cv::Mat& image, const std::string& text, cv::Point at, int away_px, bool to_right) {
-    const cv::Size size = text_box(text, {0, 0}, kSmallText).size();
-    std::array<cv::Point, 4> places{
-        cv::Point{at.x + away_px, at.y + 4}, cv::Point{at.x - away_px - size.width, at.y + 4},
-        cv::Point{at.x - size.width / 2, at.y - away_px},
-        cv::Point{at.x - size.width / 2, at.y + away_px + size.height - 6}};
-    if (!to_right) {
-      std::swap(places[0], places[1]);
+  void write(cv::Mat& image, const SonarView& view, const TrackShown& one) {
+    const cv::Point at = whole_pixel(view, one.body.centre_x_m, one.body.centre_y_m);
+    const cv::Rect picture{0, 0, image.cols, image.rows};
+    if (!picture.contains(at)) {
+      return;
     }
-    for (const cv::Point& place : places) {
+    const std::string text = text_of(one);
+    const cv::Size size = text_box(text, {0, 0}, kSmallText).size();
+    for (const cv::Point& place : places(at, size, away_px(view, one), one.velocity_m_s.x())) {
       const cv::Rect box = text_box(text, place, kSmallText);
-      const bool inside = (box & cv::Rect{0, 0, image.cols, image.rows}) == box;
       const bool is_taken = std::any_of(taken_.begin(), taken_.end(), [&](const cv::Rect& other) {
         return (other & box).area() > 0;
       });
-      if (inside && !is_taken) {
+      if ((box & picture) == box && !is_taken) {
         write_text(image, text, place, kSmallText, view_colours::kTrack);
         taken_.push_back(box);
         return;
@@ -100,6 +108,33 @@ class Numbers {
   }
 
  private:
+  // How fast, where that is known.
+  [[nodiscard]] static std::string text_of(const TrackShown& one) {
+    std::array<char, 48> text{};
+    if (one.surely_moves) {
+      std::snprintf(text.data(), text.size(), "%u: %.1f m/s", one.body.id,
+                    std::min(one.velocity_m_s.norm(), kFastestWritten_m_s));
+    } else {
+      std::snprintf(text.data(), text.size(), "%u", one.body.id);
+    }
+    return text.data();
+  }
+  [[nodiscard]] static int away_px(const SonarView& view, const TrackShown& one) {
+    const double size_px =
+        std::max(one.body.semi_axis_first_m, one.body.semi_axis_second_m) / view.metres_per_pixel();
+    return static_cast<int>(std::clamp(size_px, 0.0, kFarthestNumberPx)) + 6;
+  }
+  // The best first: beside its way.
+  [[nodiscard]] static std::array<cv::Point, 4> places(cv::Point at, cv::Size size, int away,
+                                                       double to_starboard_m_s) {
+    const cv::Point right{at.x + away, at.y + 4};
+    const cv::Point left{at.x - away - size.width, at.y + 4};
+    const cv::Point above{at.x - size.width / 2, at.y - away};
+    const cv::Point below{at.x - size.width / 2, at.y + away + size.height - 6};
+    return to_starboard_m_s <= 0.0 ? std::array{right, left, above, below}
+                                   : std::array{left, right, above, below};
+  }
+
   std::vector<cv::Rect> taken_;
 };
 
@@ -107,7 +142,7 @@ class Numbers {
 
 void draw_way(cv::Mat& image, cv::Point from, cv::Point to) {
   constexpr double kHeadPx = 8.0;
-  const double length_px = std::hypot(to.x - from.x, to.y - from.y) / kSubpixels;
+  const double length_px = std::hypot(to.x - from.x, to.y - from.y) / (1 << kShift);
   const double head = std::min(0.5, kHeadPx / std::max(length_px, 1.0));
   const auto arrow = [&](const ViewColour& colour, int width) {
     cv::arrowedLine(image, from, to, bgr(colour), width, cv::LINE_AA, kShift, head);
@@ -117,18 +152,29 @@ void draw_way(cv::Mat& image, cv::Point from, cv::Point to) {
 }
 
 void draw_doubt(cv::Mat& image, const Outline& ellipse) {
-  constexpr std::size_t kDash = 4;  // of an outline's 96 sides, and as many between two dashes
-  for (std::size_t first = 0; first + kDash < ellipse.size(); first += 2 * kDash) {
-    const auto begin = ellipse.begin() + static_cast<std::ptrdiff_t>(first);
-    cv::polylines(image, std::vector<Outline>{{begin, begin + kDash + 1}}, false,
-                  bgr(view_colours::kTrack), 1, cv::LINE_AA, kShift);
+  Outline pixels;
+  for (const cv::Point& corner : ellipse) {
+    pixels.emplace_back(corner.x >> kShift, corner.y >> kShift);
   }
+  const cv::Rect box = cv::boundingRect(pixels) & cv::Rect{0, 0, image.cols, image.rows};
+  if (box.area() > 0) {
+    cv::Mat area{image.rows, image.cols, CV_8U, cv::Scalar{0}};
+    cv::fillConvexPoly(area, ellipse, cv::Scalar{1}, cv::LINE_8, kShift);
+    cv::Mat part = image(box);
+    cv::Mat filled = part.clone();
+    filled.setTo(bgr(view_colours::kTrack), area(box));
+    cv::addWeighted(filled, view_colours::kDoubtOpacity, part, 1.0 - view_colours::kDoubtOpacity,
+                    0.0, part);
+  }
+  cv::polylines(image, std::vector<Outline>{ellipse}, true, bgr(view_colours::kTrack), 1,
+                cv::LINE_AA, kShift);
 }
 
 std::vector<TrackShown> shown_tracks(const ViewPicture& picture) {
   std::vector<TrackShown> shown;
+  const bool any = picture.tracks != nullptr && picture.is_chart();
   const std::uint32_t count =
-      picture.tracks != nullptr ? std::min<std::uint32_t>(picture.tracks->count, kMaxObstacles) : 0;
+      any ? std::min<std::uint32_t>(picture.tracks->count, kMaxObstacles) : 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     if (is_track(picture.tracks->tracks[i])) {
       shown.push_back(
@@ -148,27 +194,26 @@ void draw_what_rests(cv::Mat& image, const ViewPicture& picture,
     }
   }
   const cv::Mat everywhere{kViewRows, kViewColumns, CV_8U, cv::Scalar{1}};
-  paint(image, everywhere, area, view_colours::kOccupied, view_colours::kOccupied,
-        picture.water ? 0.0 : view_colours::kOccupiedOpacity);
+  paint(image, everywhere, area, view_colours::kRests, view_colours::kRests,
+        picture.water ? 0.0 : view_colours::kRestsOpacity);
 }
 
 void draw_what_moves(cv::Mat& image, const ViewPicture& picture,
                      const std::vector<TrackShown>& tracks) {
   const SonarView view{picture.range_m};
-  for (const TrackShown& one : tracks) {
-    if (one.may_move) {
-      draw_mover(image, view, one);
+  for (const bool sure : {false, true}) {  // on top what is surer
+    for (const TrackShown& one : tracks) {
+      if (one.may_move && one.surely_moves == sure) {
+        draw_mover(image, view, one);
+      }
     }
   }
   Numbers numbers;
-  for (const TrackShown& one : tracks) {
-    const cv::Point at = whole_pixel(view, one.body.centre_x_m, one.body.centre_y_m);
-    if (one.may_move && cv::Rect{0, 0, kViewColumns, kViewRows}.contains(at)) {
-      const double size_px = std::max(one.body.semi_axis_first_m, one.body.semi_axis_second_m) /
-                             view.metres_per_pixel();
-      numbers.write(image, std::to_string(one.body.id), at,
-                    static_cast<int>(std::min(size_px, kFarthestNumberPx)) + 6,
-                    one.velocity_m_s.x() <= 0.0);  // beside its way
+  for (const bool sure : {true, false}) {
+    for (const TrackShown& one : tracks) {
+      if (one.may_move && one.surely_moves == sure) {
+        numbers.write(image, view, one);
+      }
     }
   }
 }

@@ -129,40 +129,73 @@ TEST_CASE("file commands: a frame that cannot be read is named and the others ar
         "bad.pgm:1: image: the image is truncated\ngone.pgm:1: image: no such file\n");
 }
 
-TEST_CASE("file commands: overlays of frames one after another show tracks and free water",
+TEST_CASE("file commands: a directory's frames are a sequence whose overlays show tracks and water",
           "[system]") {
-  constexpr int kBesideColumn = 383;  // 3 m to port, 10 m ahead: 5/3 pixels are 10 cm
-  constexpr int kBesideRow = 332;
-  const auto is_blue = [](const ViewColour& colour) { return colour.blue > colour.red + 20; };
-  const auto is_pink = [](const RgbPicture& picture) {
+  constexpr int kBesideColumn = 383;  // 3 m to port, 12 m ahead
+  constexpr int kBesideRow = 299;
+  const auto is_hatched = [](const RgbPicture& picture) {
+    return picture.count_near(kBesideColumn, kBesideRow, 9, view_colours::kHatch) > 20;
+  };
+  const auto is_tracked = [](const RgbPicture& picture) {
     return picture.count_near(433, 290, 30, view_colours::kTrack) > 20;
   };
   Bench bench;
-  Words words{"--overlay", "out", "--quiet"};
-  for (const std::string name : {"f1.pgm", "f2.pgm", "f3.pgm", "f4.pgm"}) {
-    bench.write(name, frame_with_a_patch());
-    words.push_back(name);
+  Words words{"--overlay", "out", "--quiet", "frames"};
+  for (const std::string name : {"f10.pgm", "f9.PGM", "f8.pgm", "f7.pgm"}) {
+    bench.write("frames/" + name, frame_with_a_patch());
   }
+  bench.write("frames/notes.txt", "no frame");
   words.insert(words.end(), kSonar.begin(), kSonar.end());
   const auto last = [&](const Words& more) {
     Words all = words;
     all.insert(all.end(), more.begin(), more.end());
     const Outcome outcome = bench.run(LODESMAN_PROGRAM, segment_of(all));
     REQUIRE(outcome.status == 0);
-    return RgbPicture{bench.left_in("out/f4.png")};
+    CHECK(files_in(outcome, "frames") ==
+          Words{"frames/f7.pgm", "frames/f8.pgm", "frames/f9.PGM", "frames/f10.pgm"});
+    return RgbPicture{bench.left_in("out/f10.png")};
   };
   const RgbPicture tracked = last({"--track"});
   CHECK(tracked.columns() == 866);
-  CHECK(is_blue(tracked.at(kBesideColumn, kBesideRow)));
-  CHECK(is_pink(tracked));
-  const RgbPicture first{bench.left_in("out/f1.png")};
-  CHECK_FALSE(is_blue(first.at(kBesideColumn, kBesideRow)));  // one look is no proof
+  CHECK_FALSE(is_hatched(tracked));
+  CHECK(is_tracked(tracked));
+  CHECK(is_hatched(RgbPicture{bench.left_in("out/f7.png")}));  // one look is no proof
 
-  const RgbPicture only_tracks = last({"--track", "--layers", "tracks"});
-  CHECK_FALSE(is_blue(only_tracks.at(kBesideColumn, kBesideRow)));
-  CHECK(is_pink(only_tracks));
-  CHECK_FALSE(is_pink(last({"--track", "--layers", "echoes,water"})));
-  CHECK_FALSE(is_pink(last({})));
+  CHECK(is_tracked(last({"--track", "--layers", "tracks"})));
+  CHECK_FALSE(is_tracked(last({"--track", "--layers", "echoes,water"})));
+  CHECK_FALSE(is_tracked(last({})));
+}
+
+TEST_CASE("file commands: a directory without frames is refused", "[system]") {
+  Bench bench;
+  bench.write("frames/notes.txt", "no frame");
+  Words words{"frames"};
+  words.insert(words.end(), kSonar.begin(), kSonar.end());
+  const Outcome outcome = bench.run(LODESMAN_PROGRAM, segment_of(words));
+  CHECK(outcome.status == 2);
+  CHECK(outcome.error == "frames:1: image: the directory has no PGM, PNG or JPEG file\n");
+}
+
+TEST_CASE("file commands: of a frame one is told the time it took, and of a track its number",
+          "[system]") {
+  Bench bench;
+  Words words{"--track", "frames"};
+  for (const std::string name : {"f1.pgm", "f2.pgm", "f3.pgm"}) {
+    bench.write("frames/" + name, frame_with_a_patch());
+  }
+  words.insert(words.end(), kSonar.begin(), kSonar.end());
+  const Outcome outcome = bench.run(LODESMAN_PROGRAM, segment_of(words));
+  const auto document = nlohmann::json::parse(outcome.out, nullptr, false);
+  REQUIRE(document.value("frames", nlohmann::json::array()).size() == 3);
+  std::vector<unsigned> ids;
+  for (const auto& frame : document["frames"]) {
+    CHECK(frame.at("us") > 0.0);
+    REQUIRE(frame.at("obstacles").size() == 1);
+    ids.push_back(frame["obstacles"][0].at("id"));
+    CHECK(frame["obstacles"][0].at("surely_moves") == false);
+  }
+  CHECK(ids[0] > 0);
+  CHECK(ids == std::vector<unsigned>(3, ids[0]));
 }
 
 TEST_CASE("file commands: layers that there are not are refused by their option", "[system]") {

@@ -35,7 +35,9 @@ class Bench {
   Bench& operator=(const Bench&) = delete;
   ~Bench() { fs::remove_all(place_); }
 
+  // Into a directory of that one, where the name has it.
   void write(const std::string& name, const std::string& text) {
+    fs::create_directories((place_ / name).parent_path());
     std::ofstream{place_ / name, std::ios::binary} << text;
     written_ += 1;
   }

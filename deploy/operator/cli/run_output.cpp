@@ -60,8 +60,9 @@ RunOutputOptions run_output_options(const BoatConfig& config, const Scenario* wo
                                     bool images) {
   return {quiet,
           images,
-          {config.simulation.sonar_view_period, !voyage_of(config, world).known_scene,
-           config.low.delta_t.mounting}};
+          {config.simulation.sonar_view_period,
+           config.high.planner.replanner.pilot ? ViewLook::kChart : ViewLook::kPaper,
+           !voyage_of(config, world).known_scene, config.low.delta_t.mounting}};
 }
 
 RunOutput::RunOutput(const Scenario& scenario, const fs::path& directory,

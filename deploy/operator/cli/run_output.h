@@ -24,11 +24,11 @@ struct RunOutputOptions {
   ViewSettings views;
 };
 
-// What a run writes while it goes on. What cannot be written is said once, and the run goes on.
 // As the boat of this configuration sails. `world`: the simulated one; nullptr: none.
 [[nodiscard]] RunOutputOptions run_output_options(const BoatConfig& config, const Scenario* world,
                                                   bool quiet, bool images);
 
+// What a run writes while it goes on. What cannot be written is said once, and the run goes on.
 class RunOutput {
  public:
   // Into an existing directory. StartupError names a file that cannot be made.

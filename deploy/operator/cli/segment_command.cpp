@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/operator/cli/segment_command.h"
-#include "deploy/boat/level_options.h"
 
 #include <unistd.h>
 
@@ -19,8 +18,10 @@
 #include <vector>
 
 #include "deploy/boat/configuration.h"
+#include "deploy/boat/level_options.h"
 #include "deploy/operator/cli/common_options.h"
 #include "deploy/operator/cli/number_options.h"
+#include "deploy/operator/cli/segment_frames.h"
 #include "deploy/operator/cli/segment_overlay.h"
 #include "deploy/operator/cli/segment_text.h"
 #include "low_level/path/path_finder.h"
@@ -177,6 +178,7 @@ Json to_json(const Obstacle& o) {
 void add_velocity(const Track& track, Json& out) {
   if (track.velocity_xx_m2_s2 > 0.0) {
     out["velocity_m_s"] = {track.velocity_x_m_s, track.velocity_y_m_s};
+    out["surely_moves"] = track.surely_moves();
   }
 }
 
@@ -322,13 +324,16 @@ class SegmentCommand : public CLI::App {
         ->capture_default_str();
     add_option("--threshold", options_.threshold, "Echo strength from which a bin is bright")
         ->check(number_from(1.0, 255.0));
-    footer("Example:\n  lodesman segment frames/*.pgm --range-m 30 --sector-deg 120 --json");
+    footer(
+        "Example:\n  lodesman segment frames --range-m 30 --sector-deg 120 --track --overlay out");
     callback([this] { run(); });
   }
 
  private:
   void add_input_options() {
-    add_option("IMAGE", options_.images, "8-bit PGM, PNG or JPEG frames")->required();
+    add_option("IMAGE", options_.images,
+               "8-bit PGM, PNG or JPEG frames, or a directory of them, which are taken by name")
+        ->required();
     add_option("--range-m", options_.range_m, "Range setting of the sonar")
         ->required()
         ->check(number_from(0.1, 300.0));
@@ -352,6 +357,7 @@ class SegmentCommand : public CLI::App {
   }
 
   void run() {
+    options_.images = frame_files(options_.images);
     options_.fan = layout_ == "fan";
     options_.apex_at_bottom = apex_ == "bottom";
     exit_status_ = segment(options_);

@@ -15,16 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The head is at rest, so that its frame is the one that the water is known in.
-[[nodiscard]] ViewWater water_at(const EvidenceGrid& water, const VehiclePoint& p) {
-  switch (water.state(p.xy_m)) {
-    case WaterState::kFree: return ViewWater::kFree;
-    case WaterState::kOccupied: return ViewWater::kOccupied;
-    case WaterState::kUnknown: break;
-  }
-  return ViewWater::kUnknown;
-}
-
 // In short lines: the fan is wider the farther down.
 [[nodiscard]] std::string caption_of(const OverlayFrame& frame, const std::string& stem) {
   std::string caption = fmt::format("{}\n{} {}", stem, frame.seen->count,
@@ -86,14 +76,16 @@ void SegmentOverlay::save(const OverlayFrame& frame) {
   const std::string caption = caption_of(frame, stem);
   ViewPicture picture;
   picture.range_m = frame.ping->range_m;
+  picture.look = ViewLook::kChart;
   picture.ping = bright || draws("echoes", true) ? frame.ping : nullptr;
   picture.bright_from = bright ? bright_from_ : 0.0;
   picture.obstacles = draws("obstacles", true) ? frame.seen : nullptr;
-  picture.zones = draws("zones", !tracked || frame.path != nullptr) ? frame.planned : nullptr;
+  picture.zones = draws("zones", frame.path != nullptr) ? frame.planned : nullptr;
   picture.tracks = draws("tracks", true) ? frame.tracks : nullptr;
   if (tracked && draws("water", true)) {
+    // The head is at rest, so that its frame is the one that the water is known in.
     picture.water = [&water = frame.tracker->water()](const VehiclePoint& p) {
-      return water_at(water, p);
+      return water.state(p.xy_m);
     };
   }
   if (frame.path != nullptr) {

@@ -37,7 +37,7 @@ struct OverlayFrame {
 class SegmentOverlay {
  public:
   // Makes the directory. `layers`: a few of those above, joined by commas; empty: what there is,
-  // but not zones over water where nothing was planned. `bright_from`: the threshold; 0: none.
+  // but zones only where something was planned. `bright_from`: the threshold; 0: none.
   // Throws StartupError.
   SegmentOverlay(std::filesystem::path directory, const std::string& layers, double bright_from);
 

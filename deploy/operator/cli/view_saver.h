@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Saves the sonar view of every so many seconds' plan as a JPEG, as the paper's DeltaT thread did,
-// but beside the tasks and not in them: with the echoes and the tracks where it sails by echoes.
-// The watcher's thread.
+// but beside the tasks and not in them. The watcher's thread.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "deploy/operator/report/run_record.h"
 #include "low_level/sonar/mounting.h"
+#include "low_level/sonar/view_image.h"
 #include "mid_level/blackboard/blackboard.h"
 
 namespace lodesman::cli {
 
 struct ViewSettings {
   Duration period{};
+  ViewLook look = ViewLook::kPaper;
   bool by_echoes = false;        // not by obstacles that it was told of
   SonarMounting sonar_mounting;  // of the head that heard them
 };
@@ -34,6 +36,11 @@ class ViewSaver {
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
 
  private:
+  // The picture's file as bytes.
+  [[nodiscard]] std::vector<std::uint8_t> draw(const Blackboard& board, const Plan& plan,
+                                               const SonarPath* path,
+                                               const PlanRecord& record) const;
+
   std::filesystem::path directory_;
   double range_m_;
   ViewSettings settings_;
