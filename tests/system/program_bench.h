@@ -35,7 +35,9 @@ class Bench {
   Bench& operator=(const Bench&) = delete;
   ~Bench() { fs::remove_all(place_); }
 
+  // Into a directory of that one, where the name has it.
   void write(const std::string& name, const std::string& text) {
+    fs::create_directories((place_ / name).parent_path());
     std::ofstream{place_ / name, std::ios::binary} << text;
     written_ += 1;
   }
@@ -66,6 +68,10 @@ class Bench {
                     text_of(streams / "out"), text_of(streams / "error")};
     fs::remove_all(streams);
     return outcome;
+  }
+  // What the program left in a file; empty where there is none.
+  [[nodiscard]] std::string left_in(const std::string& name) const {
+    return text_of(place_ / name);
   }
   // Whether the program left anything behind.
   [[nodiscard]] bool untouched() const {

@@ -8,6 +8,7 @@
 #include "deploy/boat/device_catalogue.h"
 #include "deploy/boat/free_port.h"
 #include "deploy/boat/named_scenario.h"
+#include "deploy/boat/program_options.h"
 
 namespace lodesman::cli {
 namespace fs = std::filesystem;

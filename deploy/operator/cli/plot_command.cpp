@@ -79,9 +79,9 @@ void refuse_place_of_recording(const PlotOptions& options) {
   const fs::path directory = directory_for(options);
   catch_stop_signals();
   const bool quiet = options.common.quiet || options.common.json;
-  RunOutput output{scenario_of(boat, mission),
-                   directory,
-                   {quiet, !options.no_images, boat.configuration.simulation.sonar_view_period}};
+  RunOutput output{scenario_of(boat, mission), directory,
+                   run_output_options(boat.configuration, boat.scenario ? &*boat.scenario : nullptr,
+                                      quiet, !options.no_images)};
   WatchedRecording run{options.files, boat, mission, stop_caught,
                        [&](const RunProgress& progress) { output.show(progress); }};
   run.on_plan = [&](const Blackboard& board, const Plan& plan, const SonarPath* path,

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "deploy/boat/configuration.h"
+#include "deploy/boat/voyage.h"
 #include "deploy/operator/report/plots.h"
 #include "mid_level/base/startup_error.h"
 
@@ -55,11 +56,20 @@ void print_summary(const RunRecord& record, const fs::path& directory, bool imag
   }
 }
 
+RunOutputOptions run_output_options(const BoatConfig& config, const Scenario* world, bool quiet,
+                                    bool images) {
+  return {quiet,
+          images,
+          {config.simulation.sonar_view_period,
+           config.high.planner.replanner.pilot ? ViewLook::kChart : ViewLook::kPaper,
+           !voyage_of(config, world).known_scene, config.low.delta_t.mounting}};
+}
+
 RunOutput::RunOutput(const Scenario& scenario, const fs::path& directory,
                      const RunOutputOptions& options)
     : files_{directory}, line_{scenario, options.quiet} {
   if (options.images) {
-    views_.emplace(directory, options.view_period, scenario.sonar.range_m);
+    views_.emplace(directory, scenario.sonar.range_m, options.views);
   }
 }
 

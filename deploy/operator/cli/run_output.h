@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "deploy/boat/configuration.h"
 #include "deploy/operator/cli/view_saver.h"
 #include "deploy/operator/report/plan_story.h"
 #include "deploy/operator/report/run_files.h"
@@ -20,8 +21,12 @@ void print_summary(const RunRecord& record, const std::filesystem::path& directo
 struct RunOutputOptions {
   bool quiet = false;
   bool images = true;
-  Duration view_period{};  // of the sonar views
+  ViewSettings views;
 };
+
+// As the boat of this configuration sails. `world`: the simulated one; nullptr: none.
+[[nodiscard]] RunOutputOptions run_output_options(const BoatConfig& config, const Scenario* world,
+                                                  bool quiet, bool images);
 
 // What a run writes while it goes on. What cannot be written is said once, and the run goes on.
 class RunOutput {

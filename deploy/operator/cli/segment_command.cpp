@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/operator/cli/segment_command.h"
-#include "deploy/boat/level_options.h"
 
 #include <unistd.h>
 
@@ -10,7 +9,6 @@
 #include <ctime>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -20,13 +18,16 @@
 #include <vector>
 
 #include "deploy/boat/configuration.h"
+#include "deploy/boat/level_options.h"
 #include "deploy/operator/cli/common_options.h"
 #include "deploy/operator/cli/number_options.h"
+#include "deploy/operator/cli/segment_frames.h"
+#include "deploy/operator/cli/segment_overlay.h"
+#include "deploy/operator/cli/segment_text.h"
 #include "low_level/path/path_finder.h"
 #include "low_level/sonar/detector.h"
 #include "low_level/sonar/ping_image.h"
 #include "low_level/sonar/protection.h"
-#include "low_level/sonar/view_image.h"
 #include "low_level/tracking/tracker.h"
 #include "mid_level/base/heading.h"
 #include "mid_level/base/startup_error.h"
@@ -47,6 +48,7 @@ struct SegmentOptions {
   std::optional<std::array<double, 2>> apex_px;  // column and row
   double radius_px = 0.0;                        // 0: the image's height
   std::string overlay_dir;
+  std::string layers;                           // of the overlays; empty: as they come
   std::optional<std::array<double, 2>> plan_m;  // x and y
   bool track = false;                           // the frames are pings one after another
   double ping_hz = 10.0;
@@ -76,6 +78,11 @@ class FrameReader {
     if (options.track) {
       tracker_.emplace(delta_t_.segmentation.min_range_m);
     }
+    if (!options.overlay_dir.empty()) {
+      const bool fixed = delta_t_.segmentation.method == DetectionMethod::kThreshold;
+      overlay_.emplace(options.overlay_dir, options.layers,
+                       fixed ? delta_t_.segmentation.threshold : 0.0);
+    }
   }
 
   // False, and said, where the file holds no frame.
@@ -85,7 +92,7 @@ class FrameReader {
 
  private:
   void take(const GreyImage& image, const fs::path& file);
-  void track();
+  void take_what_is_known();
   void plan(Json& frame);
   void save_overlay(const fs::path& file);
 
@@ -93,13 +100,14 @@ class FrameReader {
   DeltaTOptions delta_t_;
   Detector detector_;
   std::optional<Tracker> tracker_;
+  std::optional<SegmentOverlay> overlay_;
   PathFinder path_finder_;
   // On the heap, because a ping is half a megabyte.
   std::unique_ptr<SonarPing> ping_ = std::make_unique<SonarPing>();
-  std::unique_ptr<SonarObstacles> obstacles_ = std::make_unique<SonarObstacles>();
+  std::unique_ptr<SonarObstacles> seen_ = std::make_unique<SonarObstacles>();
+  std::unique_ptr<SonarObstacles> obstacles_ = std::make_unique<SonarObstacles>();  // or tracks
   std::unique_ptr<Tracks> tracks_ = std::make_unique<Tracks>();
   std::unique_ptr<SonarPath> path_ = std::make_unique<SonarPath>();
-  std::map<std::string, int> overlay_names_;  // how often each has been used
 };
 
 bool FrameReader::load(const fs::path& file) {
@@ -114,6 +122,7 @@ bool FrameReader::load(const fs::path& file) {
 
 void FrameReader::take(const GreyImage& image, const fs::path& file) {
   ping_->number += 1;
+  ping_->captured = Time{from_seconds(static_cast<double>(ping_->number) / options_.ping_hz)};
   ping_->range_m = options_.range_m;
   ping_->sector_rad = to_rad(options_.sector_deg);
   if (!options_.fan) {
@@ -169,16 +178,18 @@ Json to_json(const Obstacle& o) {
 void add_velocity(const Track& track, Json& out) {
   if (track.velocity_xx_m2_s2 > 0.0) {
     out["velocity_m_s"] = {track.velocity_x_m_s, track.velocity_y_m_s};
+    out["surely_moves"] = track.surely_moves();
   }
 }
 
 Json FrameReader::read(const fs::path& file) {
   const double before_us = processor_time_us();
-  detector_.detect(*ping_, *obstacles_);
+  detector_.detect(*ping_, *seen_);
   if (tracker_) {
-    track();
+    tracker_->see(*ping_, *seen_, {}, *tracks_);
   }
   const double us = processor_time_us() - before_us;
+  take_what_is_known();
   if (delta_t_.own_zones) {
     make_own_zones(*delta_t_.own_zones, *obstacles_);
   }
@@ -196,7 +207,7 @@ Json FrameReader::read(const fs::path& file) {
   if (options_.plan_m) {
     plan(frame);
   }
-  if (!options_.overlay_dir.empty()) {
+  if (overlay_) {
     save_overlay(file);
   }
   return frame;
@@ -204,11 +215,13 @@ Json FrameReader::read(const fs::path& file) {
 
 // The head is at rest, so that its frame is the odometry's. What is known takes the place of what
 // is seen.
-void FrameReader::track() {
-  ping_->captured = Time{from_seconds(static_cast<double>(ping_->number) / options_.ping_hz)};
-  obstacles_->captured = ping_->captured;
-  tracker_->see(*ping_, *obstacles_, {}, *tracks_);
+void FrameReader::take_what_is_known() {
+  *obstacles_ = *seen_;
+  if (!tracker_) {
+    return;
+  }
   obstacles_->count = tracks_->count;
+  obstacles_->dropped += tracks_->dropped;
   for (std::uint32_t i = 0; i < tracks_->count; ++i) {
     obstacles_->obstacles[i] = tracks_->tracks[i].shape;
   }
@@ -230,53 +243,17 @@ void FrameReader::plan(Json& frame) {
 }
 
 void FrameReader::save_overlay(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  const int used = ++overlay_names_[stem];
-  const fs::path overlay = fs::path{options_.overlay_dir} /
-                           (stem + (used > 1 ? "-" + std::to_string(used) : "") + ".png");
-  std::string caption = stem + "\n" + std::to_string(obstacles_->count) + " obstacles";
-  ViewPicture picture;
-  picture.range_m = options_.range_m;
-  picture.ping = ping_.get();
-  picture.obstacles = obstacles_.get();
+  OverlayFrame frame{
+      .file = file, .ping = ping_.get(), .seen = seen_.get(), .planned = obstacles_.get()};
+  if (tracker_) {
+    frame.tracker = &*tracker_;
+    frame.tracks = tracks_.get();
+  }
   if (options_.plan_m) {
-    picture.path = {path_->pixels.data(), path_->pixel_count};
-    picture.goal = VehiclePoint{{(*options_.plan_m)[0], (*options_.plan_m)[1]}};
-    caption += std::string{", path: "} + to_string(path_->reason);
+    frame.path = path_.get();
+    frame.goal = VehiclePoint{{(*options_.plan_m)[0], (*options_.plan_m)[1]}};
   }
-  picture.caption = caption;
-  if (!save_png(overlay, picture)) {
-    throw StartupError{overlay.string(), 1, "--overlay", "cannot be written"};
-  }
-}
-
-void print_obstacle(const Json& o) {
-  std::array<char, 64> place{};
-  std::snprintf(place.data(), place.size(), "  %7.2f m %+7.2f deg  ", o["range_m"].get<double>(),
-                o["bearing_deg"].get<double>());
-  std::array<char, 64> shape{};
-  if (o.contains("vertices_m")) {
-    std::snprintf(shape.data(), shape.size(), "polygon of %zu corners", o["vertices_m"].size());
-  } else {
-    std::snprintf(shape.data(), shape.size(), "%5.2f x %5.2f m at %+4.0f deg",
-                  o["semi_axes_m"][0].get<double>(), o["semi_axes_m"][1].get<double>(),
-                  o["angle_deg"].get<double>());
-  }
-  std::array<char, 32> peak{};
-  std::snprintf(peak.data(), peak.size(), "  peak %3.0f\n", o["peak"].get<double>());
-  std::cout << place.data() << shape.data() << peak.data();
-}
-
-void print_frame(const Json& frame) {
-  std::cout << frame["file"].get<std::string>() << ": " << frame["obstacles"].size()
-            << " obstacles\n";
-  for (const Json& o : frame["obstacles"]) {
-    print_obstacle(o);
-  }
-  if (frame.contains("reason")) {
-    std::cout << "  path: " << frame["reason"].get<std::string>() << ", " << frame["path_m"].size()
-              << " pixels\n";
-  }
+  overlay_->save(frame);
 }
 
 void show_progress(const SegmentOptions& options, std::size_t done) {
@@ -295,13 +272,6 @@ void show_progress(const SegmentOptions& options, std::size_t done) {
 
 // A file that holds no frame is named, and the others are read all the same.
 [[nodiscard]] int segment(const SegmentOptions& options) {
-  if (!options.overlay_dir.empty()) {
-    std::error_code error;
-    fs::create_directories(options.overlay_dir, error);
-    if (error) {
-      throw StartupError{options.overlay_dir, 1, "--overlay", error.message()};
-    }
-  }
   FrameReader reader{options};
   Json frames = Json::array();
   int exit_status = kExitDone;
@@ -336,8 +306,14 @@ class SegmentCommand : public CLI::App {
       : CLI::App{kSegmentDescription, "segment"}, exit_status_{exit_status} {
     add_common_options(*this, options_.common);
     add_input_options();
-    add_option("--overlay", options_.overlay_dir, "Draw what was found into this directory")
-        ->type_name("DIR");
+    auto* overlay =
+        add_option("--overlay", options_.overlay_dir, "Draw what was found into this directory")
+            ->type_name("DIR");
+    add_option("--layers", options_.layers,
+               "--overlay: only these of echoes, bright (by threshold), obstacles, zones and, with "
+               "--track, water and tracks")
+        ->type_name("A,B")
+        ->needs(overlay);
     add_pair_option(*this, "--plan", options_.plan_m, -kFar_m, kFar_m,
                     "Find a path to this goal in the vehicle frame")
         ->type_name("X,Y");
@@ -348,13 +324,16 @@ class SegmentCommand : public CLI::App {
         ->capture_default_str();
     add_option("--threshold", options_.threshold, "Echo strength from which a bin is bright")
         ->check(number_from(1.0, 255.0));
-    footer("Example:\n  lodesman segment frames/*.pgm --range-m 30 --sector-deg 120 --json");
+    footer(
+        "Example:\n  lodesman segment frames --range-m 30 --sector-deg 120 --track --overlay out");
     callback([this] { run(); });
   }
 
  private:
   void add_input_options() {
-    add_option("IMAGE", options_.images, "8-bit PGM, PNG or JPEG frames")->required();
+    add_option("IMAGE", options_.images,
+               "8-bit PGM, PNG or JPEG frames, or a directory of them, which are taken by name")
+        ->required();
     add_option("--range-m", options_.range_m, "Range setting of the sonar")
         ->required()
         ->check(number_from(0.1, 300.0));
@@ -378,6 +357,7 @@ class SegmentCommand : public CLI::App {
   }
 
   void run() {
+    options_.images = frame_files(options_.images);
     options_.fan = layout_ == "fan";
     options_.apex_at_bottom = apex_ == "bottom";
     exit_status_ = segment(options_);

@@ -167,9 +167,8 @@ constexpr const char* kRecording = "mission.mcap";
   catch_stop_signals();
   remove_dead_runs();
   RunOutput output{
-      scenario,
-      directory,
-      {options.common.quiet, !options.no_images, configuration.simulation.sonar_view_period}};
+      scenario, directory,
+      run_output_options(configuration, &scenario, options.common.quiet, !options.no_images)};
   if (!options.wait_start) {
     output.say(bench ? "the thrusters are emulated: armed by the launcher"
                      : "the thrusters are simulated: armed by the launcher");

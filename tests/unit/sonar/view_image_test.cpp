@@ -36,7 +36,7 @@ TEST_CASE("view picture: 866 x 500, with and without everything", "[low_level][s
   Segmenter{testing::shipped_options()}.segment(*ping, *seen);
   const std::vector<PathPixel> path{{433, 499}, {433, 400}, {500, 333}};
   picture.ping = ping.get();
-  picture.obstacles = seen.get();
+  picture.zones = picture.obstacles = seen.get();
   picture.path = path;
   picture.goal = VehiclePoint{{4.0, 10.0}};
   picture.caption = "26.0 s  frame 260\nfound";
@@ -61,7 +61,7 @@ TEST_CASE("view picture: shapes that no view can hold are drawn cut off, or not 
   seen->obstacles[2].semi_axis_first_m = std::numeric_limits<double>::max();
   ViewPicture picture;
   picture.range_m = 30.0;
-  picture.obstacles = seen.get();
+  picture.zones = picture.obstacles = seen.get();
   picture.goal = VehiclePoint{{1e200, -1e200}};
   CHECK_FALSE(encode_view(picture, ViewFormat::kPng).empty());
 }
