@@ -22,6 +22,8 @@ vm_packages="e2fsprogs iproute2 mmdebstrap openssh-client qemu-system-x86 qemu-u
 # For tests/system/recorder.cpp, which reads recordings with npm's packages too, where
 # tests/system/mcap/install.sh has installed them.
 recording_packages="nodejs npm"
+# For tests/console/page.mjs: a browser for the page, and what the page draws its charts with.
+page_packages="chromium libjs-dygraphs"
 # For lodesman rt-test (its load, and cyclictest beside it) and for what is measured under load.
 load_packages="stress-ng rt-tests"
 # For tests/measure/perception.sh: what the judge of the shared real frames is written with.
