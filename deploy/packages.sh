@@ -4,7 +4,8 @@
 build_packages="g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev libspdlog-dev
   libopencv-core-dev libopencv-imgproc-dev libpng-dev libturbojpeg0-dev libtomlplusplus-dev
   libcli11-dev nlohmann-json3-dev libgeographiclib-dev libxxhash-dev libserialport-dev
-  libusb-1.0-0-dev libsodium-dev libsystemd-dev libzstd-dev zlib1g-dev gnuplot-nox"
+  libusb-1.0-0-dev libsodium-dev libsystemd-dev libzstd-dev zlib1g-dev gnuplot-nox
+  libjs-dygraphs"
 test_packages="catch2"
 # For tests/bench, which is built with -DLODESMAN_BENCH=ON.
 bench_packages="libbenchmark-dev"
@@ -22,8 +23,8 @@ vm_packages="e2fsprogs iproute2 mmdebstrap openssh-client qemu-system-x86 qemu-u
 # For tests/system/recorder.cpp, which reads recordings with npm's packages too, where
 # tests/system/mcap/install.sh has installed them.
 recording_packages="nodejs npm"
-# For tests/console/page.mjs: a browser for the page, and what the page draws its charts with.
-page_packages="chromium libjs-dygraphs"
+# For tests/console/page.mjs: a browser for the page.
+page_packages="chromium"
 # For lodesman rt-test (its load, and cyclictest beside it) and for what is measured under load.
 load_packages="stress-ng rt-tests"
 # For tests/measure/perception.sh: what the judge of the shared real frames is written with.
