@@ -10,6 +10,13 @@ namespace {
 
 constexpr std::size_t kMaxName = 64;  // [bytes] as the command socket has it
 
+// What ends thrust, and does no harm when it is said twice.
+[[nodiscard]] bool is_urgent(const std::string& command, const Json& request) {
+  const auto release = request.find("release");
+  const bool releases = release != request.end() && *release == true;
+  return (stops_the_boat(command) || command == "disarm") && !releases;
+}
+
 }  // namespace
 
 bool RateLimit::allows(Time now) noexcept {
@@ -176,7 +183,7 @@ void Client::hear_call(const foxglove::ServiceCall& call, Time now) {
     name_ = request["name"].get<std::string>().substr(0, kMaxName);
   }
   ++calls_;
-  CommandPort& port = stops_the_boat(command) ? *urgent_ : *port_;
+  CommandPort& port = is_urgent(command, request) ? *urgent_ : *port_;
   port.ask(text_of(request),
            [this, service = call.service, number = call.call, request](const BoatReply& answer) {
              answered(service, number, answer, request);

@@ -281,6 +281,7 @@ struct ConsoleServer::Impl {
       }
     }));
     viewer.read_message_max(kMaxBody);
+    viewer.auto_fragment(false);
     co_await viewer.async_accept(request, asio::use_awaitable);
     connection.client = console.add_client(*admission.rights);
     co_return false;

@@ -134,6 +134,8 @@ TEST_CASE("console client: what stops the boat waits behind nothing", "[console]
   }
   CHECK(viewer.asked.size() == 1);
   CHECK(viewer.urgent.size() == 3);
+  viewer.call(R"({"command":"estop","release":true})");
+  CHECK(viewer.asked.size() == 2);
 }
 
 TEST_CASE("console client: who looks on by a ticket commands nothing", "[console]") {

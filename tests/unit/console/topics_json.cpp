@@ -67,10 +67,10 @@ TEST_CASE("console json: of a boat that says nothing all is null", "[console]") 
 }
 
 TEST_CASE("console json: thrust is nothing at 127 and 128, and full at both ends", "[console]") {
-  CHECK(thrust_share(127) == 0.0);
-  CHECK(thrust_share(128) == 0.0);
-  CHECK(thrust_share(0) == -1.0);
-  CHECK(thrust_share(255) == 1.0);
+  CHECK(thrust_share(127) == Approx(0.0));
+  CHECK(thrust_share(128) == Approx(0.0));
+  CHECK(thrust_share(0) == Approx(-1.0));
+  CHECK(thrust_share(255) == Approx(1.0));
   CHECK(thrust_share(129) > 0.0);
   CHECK(thrust_share(126) < 0.0);
 }
