@@ -2,7 +2,7 @@
 // The operator's page in a browser without a screen, on a boat: signed in, armed, started, held, aborted,
 // sent to a goal that is tapped, steered by keys, cut off, and looked at for a minute. Ends with 1 at the
 // first thing that is not as it must be, an error of the page or a request off this machine.
-//   node page.mjs PACKAGES --bin DIR [--page DIR] [--shots DIR] [--seconds 60]
+//   node page.mjs PACKAGES --bin DIR [--console FILE] [--page DIR] [--scenario NAME] [--shots DIR] [--seconds 60]
 //   node page.mjs PACKAGES --url URL --token TOKEN [--pid N] [--shots DIR] [--seconds 60]
 // PACKAGES: where install.sh has put what it needs. DIR of --bin: the boat's programs. --pid: of the
 // console, which is stopped and let go again; without it that step is left out.
@@ -22,7 +22,7 @@ const { positionals, values: given } = parseArgs({
   allowPositionals: true,
   options: {
     bin: { type: "string" }, page: { type: "string" }, url: { type: "string" }, token: { type: "string" },
-    pid: { type: "string" }, shots: { type: "string" }, seconds: { type: "string", default: "60" },
+    console: { type: "string" }, scenario: { type: "string" }, pid: { type: "string" }, shots: { type: "string" }, seconds: { type: "string", default: "60" },
   },
 });
 const { chromium } = createRequire(path.resolve(positionals[0] ?? ".", "x"))("playwright-core");
@@ -314,7 +314,7 @@ async function look(browser, boat) {
 }
 
 const boat = given.bin
-  ? await start_boat(path.resolve(given.bin), given.page ? path.resolve(given.page) : null)
+  ? await start_boat(path.resolve(given.bin), { served_by: given.console, page: given.page && path.resolve(given.page), scenario: given.scenario })
   : { url: given.url, tokens: { command: given.token }, pid: given.pid ? Number(given.pid) : null, stop: async () => {}, texts: () => "" };
 const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
 try {
