@@ -51,23 +51,33 @@ class Program {
   }
 }
 
-// `bin`: where the programs lie; `page`: the page's files, or null for those that the console finds.
-export async function start_boat(bin, page, scenario = "paper-static") {
+// `bin`: where the programs lie; `served_by`: the console, where it is another's; `page`: the page's files, or
+// null for those that the console finds.
+export async function start_boat(bin, { served_by, page, scenario = "paper-static" }) {
   const scratch = fs.mkdtempSync(path.join(os.tmpdir(), "lodesman-console-"));
   const port = await free_port();
   const console_port = await free_port();
   const env = { ...process.env, RUNTIME_DIRECTORY: scratch, STATE_DIRECTORY: scratch };
-  const settings = ["--set", `command_socket.port=${port}`, "--set", `boat.segment=lodesman-page-${process.pid}`, "--set", "boat.name=page-boat"];
-  const sim = new Program(path.join(bin, "lodesman"), ["sim", scenario, "--wait-start", "--no-images", "--quiet", "--time-limit", "3600", "--out", path.join(scratch, "run"), ...settings], env);
+  const config = path.join(scratch, "boat.toml");
+  fs.writeFileSync(config, `[boat]
+name = "page-boat"
+segment = "lodesman-page-${process.pid}"
+[command_socket]
+port = ${port}
+[simulation]
+scenario = "${scenario}"
+`);
+  // Not "lodesman sim": that ends with its mission, and an abort ends it.
+  const boat = new Program(path.join(bin, "lodesman"), ["run", "--config", config], env);
   const token_file = path.join(scratch, `command-${port}.token`);
-  const programs = [sim];
+  const programs = [boat];
   const stop = async () => {
     for (const program of [...programs].reverse()) await program.stop();
     fs.rmSync(scratch, { recursive: true, force: true });
   };
   try {
-    await until(`a boat; ${sim.text}`, () => fs.existsSync(token_file), kPatience_ms);
-    const served = new Program(path.join(bin, "lodesman-console"), [...settings, "--set", `console.port=${console_port}`, ...(page ? ["--page", page] : [])], env);
+    await until(`a boat; ${boat.text}`, () => fs.existsSync(token_file), kPatience_ms);
+    const served = new Program(served_by ?? path.join(bin, "lodesman-console"), ["--config", config, "--set", `console.port=${console_port}`, ...(page ? ["--page", page] : [])], env);
     programs.push(served);
     const url = `http://127.0.0.1:${console_port}`;
     await until("the console", () => fetch(`${url}/session`).then((answer) => answer.ok, () => false), kPatience_ms);

@@ -11,7 +11,7 @@ skip() {
   [ "${CI:-}" != true ] || [ -n "${LODESMAN_WITHOUT_NPM:-}" ] || exit 1
   exit 77
 }
-node -e 'process.exit(Number(process.versions.node.split(".")[0]) < 18)' 2>/dev/null || skip "node 18"
+node -e 'process.exit(Number(process.versions.node.split(".")[0]) < 18 ? 1 : 0)' 2>/dev/null || skip "node 18"
 [ -d "$packages/node_modules/playwright-core" ] || skip "playwright-core (tests/console/install.sh)"
 [ -x "${CHROMIUM:-/usr/bin/chromium}" ] || skip chromium
 bin=$1

@@ -92,6 +92,7 @@ class LinkWatch {
     const silence_s = this.#store.silence_s(now_ms);
     const is_silent = silence_s !== null && silence_s > kSilent_s;
     document.body.classList.toggle("old", this.is_old || is_silent);
+    document.body.classList.toggle("cut", this.is_old);
     document.body.classList.toggle("never", age_ms === Infinity);
     this.#look_at_sonar(now_ms);
     this.#banner.hidden = !(this.is_old || is_silent);

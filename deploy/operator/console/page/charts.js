@@ -22,7 +22,7 @@ const kCharts = [
     values: (boat) => [boat.cross_track_m] },
   { title: "Plan time", unit: "ms", labels: ["plan"], dashes: [null], zero: true,
     values: (boat) => [boat.plan_time_ms] },
-  { title: "Ages", unit: "s", labels: ["heading", "fix", "sonar", "plan"], dashes: [null, [6, 3], [2, 2], [8, 2, 2, 2]], zero: true,
+  { title: "Ages", unit: "s", labels: ["head", "fix", "sonar", "plan"], dashes: [null, [6, 3], [2, 2], [8, 2, 2, 2]], zero: true,
     values: (boat) => kAges.map((name) => boat.ages_s?.[name]) },
 ];
 
@@ -157,7 +157,7 @@ export class Charts {
 function figure_text(value, chart) {
   if (!finite(value)) return "–";
   if (chart.heading) return String(Math.round(((value % 360) + 360) % 360)).padStart(3, "0");
-  return Math.abs(value) >= 100 || chart.unit === "%" ? value.toFixed(0) : value.toFixed(chart.unit === "ms" ? 1 : 2);
+  return Math.abs(value) >= 100 || chart.unit === "%" ? value.toFixed(0) : value.toFixed(chart.unit === "ms" && value >= 1 ? 1 : 2);
 }
 
 // Not narrower than means something, so that noise does not fill the strip.

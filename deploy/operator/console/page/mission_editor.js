@@ -2,7 +2,8 @@
 // The panel in which a mission is drawn on the world, set, read, saved and loaded.
 import { by_id, element, set_attribute, set_text } from "./dom.js";
 import { Draft } from "./mission_draft.js";
-import { diamond, draw_goal } from "./world_draw.js";
+import { diamond } from "./pen.js";
+import { draw_goal } from "./world_draw.js";
 
 const kTools = [
   ["look", "Look", ""],

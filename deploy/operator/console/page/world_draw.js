@@ -3,43 +3,10 @@
 // view, colours}; the messages are those of /lodesman/world, /boat and /coverage. Each kind has a
 // shape or a stroke of its own beside its colour.
 import { bar_length_m, distance, length_text, middle_of } from "./geometry.js";
+import { diamond, ring, stroke, trace, write } from "./pen.js";
 
-const kTau = 2 * Math.PI;
 const kRad = Math.PI / 180;
 const kLeastHull_px = 26;
-
-function trace(pen, points, closed) {
-  const { c, view } = pen;
-  c.beginPath();
-  points.forEach((point, i) => {
-    const [x, y] = view.to_screen(point);
-    if (i === 0) c.moveTo(x, y);
-    else c.lineTo(x, y);
-  });
-  if (closed) c.closePath();
-}
-
-function stroke(pen, colour, width, dash = []) {
-  const { c } = pen;
-  c.setLineDash(dash);
-  c.lineWidth = width;
-  c.strokeStyle = colour;
-  c.stroke();
-  c.setLineDash([]);
-}
-
-export function write(pen, text, x, y, { colour, size = 11, align = "left", weight = 500 } = {}) {
-  const { c, colours } = pen;
-  c.font = `${weight} ${size}px ${colours.font}`;
-  c.textAlign = align;
-  c.textBaseline = "middle";
-  c.lineJoin = "round";
-  c.lineWidth = 3;
-  c.strokeStyle = colours.halo;
-  c.strokeText(text, x, y);
-  c.fillStyle = colour ?? colours.ink;
-  c.fillText(text, x, y);
-}
 
 // ---- The water: what of it was seen
 
@@ -62,20 +29,6 @@ export function coverage_picture(coverage, colours) {
     }
   }
   return canvas;
-}
-
-export function hatch(c, colour, gap, width) {
-  const tile = new OffscreenCanvas(gap, gap);
-  const t = tile.getContext("2d");
-  t.strokeStyle = colour;
-  t.lineWidth = width;
-  t.beginPath();
-  for (const shift of [-gap, 0, gap]) {
-    t.moveTo(shift, gap);
-    t.lineTo(shift + gap, 0);
-  }
-  t.stroke();
-  return c.createPattern(tile, "repeat");
 }
 
 export function draw_water(pen, coverage, picture) {
@@ -134,23 +87,30 @@ export function draw_line(pen, line) {
   stroke(pen, pen.colours.line, 1.25, [2, 5]);
 }
 
-function ring(pen, at, radius_px, colour, width, dash) {
-  const [x, y] = pen.view.to_screen(at);
-  pen.c.beginPath();
-  pen.c.arc(x, y, radius_px, 0, kTau);
-  stroke(pen, colour, width, dash);
+// The points but those that would lie on the one before; the last is always there.
+function apart({ view }, points, least_px) {
+  const shown = [];
+  for (const at of points) {
+    const is_last = at === points.at(-1);
+    if (shown.length > 0 && distance(at, shown.at(-1)) * view.scale < least_px) {
+      if (!is_last) continue;
+      shown.pop();
+    }
+    shown.push(at);
+  }
+  return shown;
 }
 
 export function draw_waypoints(pen, world, boat) {
   const { view, colours } = pen;
   const radius = Math.min(8, Math.max(3.5, 0.3 * view.scale));
-  for (const at of world.previous_m ?? []) ring(pen, at, radius, colours.previous, 1.6, [2, 2.5]);
+  for (const at of apart(pen, world.previous_m ?? [], 2.4 * radius)) ring(pen, at, radius, colours.previous, 1.6, [2, 2.5]);
   const ahead = world.waypoints_m ?? [];
   if (ahead.length === 0) return;
   trace(pen, boat?.position_m ? [boat.position_m, ...ahead] : ahead, false);
   stroke(pen, colours.path_edge, 4);
   stroke(pen, colours.path, 2.4);
-  for (const at of ahead) ring(pen, at, radius, colours.current, 2, []);
+  for (const at of apart(pen, ahead, 2.4 * radius)) ring(pen, at, radius, colours.current, 2, []);
 }
 
 export function draw_mission(pen, world) {
@@ -168,21 +128,6 @@ export function draw_mission(pen, world) {
     if (!is_goal) diamond(pen, at, 7, colours.goal, String(i + 1));
   });
   if (world.goal_m) draw_goal(pen, world.goal_m, world.goal_radius_m, colours.goal, "goal");
-}
-
-export function diamond(pen, at, size, colour, label) {
-  const { c, view, colours } = pen;
-  const [x, y] = view.to_screen(at);
-  c.beginPath();
-  c.moveTo(x, y - size);
-  c.lineTo(x + size, y);
-  c.lineTo(x, y + size);
-  c.lineTo(x - size, y);
-  c.closePath();
-  c.fillStyle = colours.halo;
-  c.fill();
-  stroke(pen, colour, 1.75);
-  if (label) write(pen, label, x + size + 5, y, { colour });
 }
 
 export function draw_goal(pen, at, radius_m, colour, label) {

@@ -4,6 +4,7 @@
 import { fitted_canvas, set_attribute, set_text } from "./dom.js";
 import { View, distance } from "./geometry.js";
 import { world_words } from "./words.js";
+import { hatch } from "./pen.js";
 import * as draw from "./world_draw.js";
 
 const kTap_px = 7;
@@ -69,9 +70,9 @@ export class WorldView {
     const { context } = this.#surface;
     const { colours } = this.#theme;
     this.#patterns = {
-      unknown: draw.hatch(context, colours.unknown_line, 9, 1),
-      keep_out: draw.hatch(context, colours.keep_out, 7, 2.5),
-      unsure: draw.hatch(context, colours.obstacle, 5, 2),
+      unknown: hatch(context, colours.unknown_line, 9, 1),
+      keep_out: hatch(context, colours.keep_out, 7, 2.5),
+      unsure: hatch(context, colours.obstacle, 5, 2),
     };
     this.#repaint_coverage();
   }
