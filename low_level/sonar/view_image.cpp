@@ -13,10 +13,19 @@ namespace {
 constexpr double kShortest_m = 1e-3;
 constexpr double kLongest_m = 1e5;
 
+// Of the fan, before anything is drawn. Where neither a ping nor anybody says what was seen, all of
+// it is water.
+[[nodiscard]] const ViewColour& ground_of(const ViewPicture& picture) {
+  const bool is_told = picture.ping != nullptr || picture.water;
+  return !picture.is_chart() ? view_colours::kWater
+         : is_told           ? view_colours::kUnheard
+                             : view_colours::kFaintest;
+}
+
 cv::Mat draw(const ViewPicture& picture) {
   const cv::Mat fan = view::fan_mask();
   cv::Mat image{kViewRows, kViewColumns, CV_8UC3, view::bgr(view_colours::kOutside)};
-  image.setTo(view::bgr(picture.is_chart() ? view_colours::kUnheard : view_colours::kWater), fan);
+  image.setTo(view::bgr(ground_of(picture)), fan);
   const cv::Mat heard = view::draw_ping(image, fan, picture);
   view::draw_water(image, fan, heard, picture);
   view::draw_rings(image, picture);

@@ -135,7 +135,9 @@ class Numbers {
                                    : std::array{left, right, above, below};
   }
 
-  std::vector<cv::Rect> taken_;
+  // At first by what the legend says at the picture's lower corners.
+  std::vector<cv::Rect> taken_{{0, kViewRows - 100, 170, 100},
+                               {kViewColumns - 160, kViewRows - 120, 160, 120}};
 };
 
 }  // namespace

@@ -87,12 +87,12 @@ TEST_CASE("view picture: on a chart what one ping shows is a white outline, and 
   picture.obstacles = seen.get();
   RgbPicture image = drawn(picture);
   CHECK(light_at(image, kTrackX_m, kTrackY_m + 1.0).most > 150);  // fine and smooth
-  CHECK(RgbPicture::is_alike(colour_at(image, kTrackX_m, kTrackY_m), view_colours::kUnheard, 0));
+  CHECK(RgbPicture::is_alike(colour_at(image, kTrackX_m, kTrackY_m), view_colours::kFaintest, 0));
   CHECK(count_at(image, kTrackX_m, kTrackY_m + 2.5, view_colours::kZone) == 0);
   picture.zones = seen.get();
   image = drawn(picture);
   CHECK(count_at(image, kTrackX_m, kTrackY_m + 2.5, view_colours::kZone) > 0);
-  CHECK(RgbPicture::is_alike(colour_at(image, kTrackX_m, kTrackY_m + 1.8), view_colours::kUnheard,
+  CHECK(RgbPicture::is_alike(colour_at(image, kTrackX_m, kTrackY_m + 1.8), view_colours::kFaintest,
                              0));
 }
 

@@ -19,10 +19,10 @@ TEST_CASE("view picture: the doubt about where one is that moves is an ellipse a
   CHECK(count_at(image, kTrackX_m, kTrackY_m + 2.5, view_colours::kTrack) == 0);
   CHECK(count_at(image, kTrackX_m - 2.0, kTrackY_m, view_colours::kTrack) == 0);
   const auto doubt =
-      tinted(view_colours::kUnheard, view_colours::kTrack, view_colours::kDoubtOpacity);
+      tinted(view_colours::kFaintest, view_colours::kTrack, view_colours::kDoubtOpacity);
   CHECK(RgbPicture::is_alike(colour_at(image, kTrackX_m, kTrackY_m + 1.2), doubt, 1));
   CHECK(RgbPicture::is_alike(colour_at(image, kTrackX_m + 0.6, kTrackY_m + 1.2),
-                             view_colours::kUnheard, 1));
+                             view_colours::kFaintest, 1));
 }
 
 TEST_CASE("view picture: what may move and may not is dashed", "[low_level][sonar]") {
@@ -102,7 +102,7 @@ TEST_CASE("view picture: what moves has its number beside it, and what rests is 
   const RgbPicture image = drawn(picture_of(*tracks));
   CHECK(RgbPicture::is_alike(
       colour_at(image, kTrackX_m, kTrackY_m),
-      tinted(view_colours::kUnheard, view_colours::kRests, view_colours::kRestsOpacity), 1));
+      tinted(view_colours::kFaintest, view_colours::kRests, view_colours::kRestsOpacity), 1));
   CHECK(count_at(image, kTrackX_m, kTrackY_m + 1.0, view_colours::kRests) > 0);
 }
 
