@@ -18,7 +18,8 @@ beams_not_reached=" start-in-four-zones "
 # Second echoes lie on the goal, for who sees it over a wall; and stretches of a wall that send next to nothing
 # back are taken for gaps.
 sea_not_reached="$beams_not_reached paper-local-minimum wide-wall "
-detections_not_reached=$beams_not_reached
+# Returns without any error close the ring that the goal lies in.
+detections_not_reached="$beams_not_reached ring-opens "
 
 # choose <scene>: what it is called, and the options of its runs.
 choose() {
