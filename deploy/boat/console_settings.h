@@ -22,8 +22,12 @@ struct ConsoleSettings {
   ConsoleSettings settings{table.text("address", 64),
                            static_cast<std::uint16_t>(table.integer("port", 0, 65535)),
                            table.texts("names", 253, 16)};
-  if (!reach_of(settings.address)) {
+  const std::optional<Reach> reach = reach_of(settings.address);
+  if (!reach) {
     table.refuse("address", "must be an IP address");
+  }
+  if (*reach == Reach::kNetwork) {
+    table.refuse("address", "must be this machine's own: HTTP would carry tokens in the clear");
   }
   return settings;
 }

@@ -231,3 +231,14 @@ TEST_CASE("console: it waits for a boat, and ends as it is told", "[system]") {
   late.insert(late.end(), {"--set", "console.port=" + std::to_string(taken.port())});
   CHECK(Heard{scratch, "lodesman-console", late}.process().status() == 4);
 }
+
+TEST_CASE("console: it listens on this machine alone", "[system]") {
+  const Scratch scratch{"console-address"};
+  const std::string config =
+      scratch.file("boat.toml", "[console]\naddress = \"0.0.0.0\"\n").string();
+  Heard console{scratch, "lodesman-console", {"--config", config}};
+  CHECK(console.process().status() == 2);
+  CHECK(console.said() == config +
+                              ":2: console.address: must be this machine's own: HTTP would carry "
+                              "tokens in the clear\n");
+}

@@ -30,10 +30,12 @@ bool RateLimit::allows(Time now) noexcept {
   return true;
 }
 
-Client::Client(std::uint64_t number, const ClientRights& rights, TopicTable& topics)
+Client::Client(std::uint64_t number, const ClientRights& rights, TopicTable& topics,
+               const Pulse& pulse)
     : number_{number},
       rights_{rights},
       topics_{topics},
+      pulse_{pulse},
       name_{"viewer " + std::to_string(number)} {}
 
 Client::~Client() { leave(); }
@@ -176,9 +178,12 @@ void Client::hear_call(const foxglove::ServiceCall& call, Time now) {
   if (calls_ >= kMaxCalls) {
     return fail(call, "too many commands are under way");
   }
+  const std::string command = word->get<std::string>();
+  if (pulse_.is_held_up(now) && !stops_the_boat(command)) {
+    return fail(call, "the console was held up, and this may be of a while ago: order it again");
+  }
   request.erase("token");
   request.erase("protocol");
-  const std::string command = request["command"].get<std::string>();
   if (command == "take" && request.contains("name") && request["name"].is_string()) {
     name_ = request["name"].get<std::string>().substr(0, kMaxName);
   }

@@ -14,6 +14,7 @@
 #include "deploy/operator/console/command_port.h"
 #include "deploy/operator/console/foxglove.h"
 #include "deploy/operator/console/json_values.h"
+#include "deploy/operator/console/pulse.h"
 #include "deploy/operator/console/topics.h"
 #include "high_level/mission/command_line.h"
 
@@ -59,8 +60,8 @@ class Client {
   static constexpr double kCommandsPerSecond = 50.0;
   static constexpr double kTextsPerSecond = 200.0;
 
-  // `topics` must outlive it.
-  Client(std::uint64_t number, const ClientRights& rights, TopicTable& topics);
+  // `topics` and `pulse` must outlive it.
+  Client(std::uint64_t number, const ClientRights& rights, TopicTable& topics, const Pulse& pulse);
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
   ~Client();
@@ -109,6 +110,7 @@ class Client {
   std::uint64_t number_;
   ClientRights rights_;
   TopicTable& topics_;
+  const Pulse& pulse_;
   std::string name_;
   std::deque<Frame> replies_;
   std::map<std::uint32_t, Subscription> subscriptions_;

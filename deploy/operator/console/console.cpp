@@ -192,7 +192,7 @@ std::shared_ptr<Client> Console::add_client(const ClientRights& rights) {
   if (clients_.size() >= kMaxClients) {
     return nullptr;
   }
-  auto client = std::make_shared<Client>(++last_client_, rights, topics_);
+  auto client = std::make_shared<Client>(++last_client_, rights, topics_, pulse_);
   if (rights.may_ask) {
     const TokenOf token = [this, number = rights.session] { return token_of(number); };
     client->set_ports(make_port_(token, Insistence::kOnce), make_port_(token, Insistence::kAgain));
@@ -226,6 +226,7 @@ void Console::end_orphans() {
 }
 
 void Console::step(Time now) {
+  pulse_.beat(now);
   feed_.look(now);
   own_.step(now);
 }

@@ -14,6 +14,7 @@
 #include "deploy/operator/console/command_port.h"
 #include "deploy/operator/console/http_rules.h"
 #include "deploy/operator/console/own_topics.h"
+#include "deploy/operator/console/pulse.h"
 #include "deploy/operator/console/sessions.h"
 #include "deploy/operator/console/static_files.h"
 #include "deploy/operator/console/token_book.h"
@@ -78,6 +79,7 @@ class Console {
   Sessions sessions_;
   StaticFiles files_;
   BoardFeed feed_;
+  Pulse pulse_;
   std::list<std::shared_ptr<Client>> clients_;
   std::uint64_t last_client_ = 0;
   OwnTopics own_;

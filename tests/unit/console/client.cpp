@@ -32,7 +32,7 @@ class FakePort final : public CommandPort {
 
 struct Viewer {
   explicit Viewer(const ClientRights& rights = {Scope::kCommand, 1, true})
-      : client{1, rights, topics} {
+      : client{1, rights, topics, pulse} {
     client.set_ports(std::make_unique<FakePort>(asked), std::make_unique<FakePort>(urgent));
     topics.set_published([this](std::uint16_t topic, const std::string& part,
                                 const MessagePtr& message) { client.offer(topic, part, message); });
@@ -60,6 +60,7 @@ struct Viewer {
   }
 
   TopicTable topics;
+  Pulse pulse;
   std::uint16_t boat = topics.add_topic("/boat", viewer::log_entry());
   std::uint16_t scene = topics.add_topic("/scene", viewer::log_entry());
   std::vector<FakePort::Asked> asked;
@@ -196,4 +197,22 @@ TEST_CASE("console client: who asks without end and takes nothing is at its end"
   }
   CHECK(viewer.client.is_over());
   CHECK(asked <= static_cast<int>(Client::kMaxReplies) + 1);
+}
+
+TEST_CASE("console client: what was ordered while it was held up is refused, but for stops",
+          "[console]") {
+  Viewer viewer;
+  const auto start = [&](Time now) { viewer.call(R"({"command":"start"})", now); };
+  viewer.pulse.beat(kNow);
+  start(kNow + milliseconds{900});
+  CHECK(viewer.asked.size() == 1);
+  start(kNow + seconds{5});  // read before the console's first step after it woke
+  viewer.pulse.beat(kNow + seconds{5});
+  start(kNow + seconds{5} + milliseconds{400});
+  CHECK(viewer.asked.size() == 1);
+  viewer.call(R"({"command":"abort"})", kNow + seconds{5} + milliseconds{400});
+  CHECK(viewer.urgent.size() == 1);
+  viewer.pulse.beat(kNow + seconds{5} + milliseconds{500});
+  start(kNow + seconds{5} + milliseconds{600});
+  CHECK(viewer.asked.size() == 2);
 }
