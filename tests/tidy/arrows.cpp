@@ -137,6 +137,7 @@ const std::vector<Arrow>& arrows() {
         "drivers", "mid_level"}},
       {"deploy/operator/report", {"mid_level/geometry", "mid_level/messages"}},
       {"deploy/operator/recorder", {"deploy/boat", "mid_level"}},
+      {"deploy/operator/console", {"deploy/boat", "high_level/mission", "mid_level"}},
       {"deploy/operator/run",
        {"deploy/boat", "deploy/operator/recorder", "deploy/operator/report", "hal_sim/scenario",
         "mid_level"}},

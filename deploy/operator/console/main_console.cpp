@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lodesman-console: the page in a browser, and the boat for viewers of the Foxglove protocol. Maps
 // the boat's blackboard read-only and commands by the command socket alone, as any client of it.
-#include <spdlog/spdlog.h>
-
 #include "deploy/boat/configuration.h"
 #include "deploy/boat/console_settings.h"
 #include "deploy/boat/exit_status.h"
@@ -61,9 +59,11 @@ int run(const ProgramOptions& program) {
   try {
     ConsoleServer server{options, console_options(config, settings, program.page)};
     if (reach_of(settings.address) == Reach::kNetwork) {
-      spdlog::warn(
+      log_with_fields(
+          LineLevel::kWarning,
           "the console listens beyond loopback: tokens and orders cross that network in "
-          "the clear");
+          "the clear",
+          {});
     }
     const std::string url = url_of(settings.address, server.port());
     say("the console is at " + url);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "mid_level/recording/mcap_reader.h"
+#include "mid_level/recording/mcap_viewer_sink.h"
 #include "mid_level/recording/raw_codec.h"
 #include "mid_level/recording/sonar_picture.h"
 #include "mid_level/recording/viewer_channels.h"
