@@ -204,11 +204,12 @@ TEST_CASE("console: a run goes on where its console has no port, and where it is
 }
 
 TEST_CASE("console: scripts get none that they have not asked for", "[system]") {
-  const Scratch scratch{"console-script"};
+  const Scratch scratch{"script"};
   const auto scenario = scratch.file("scenario.toml", scenario_text(60.0));
   Heard run{scratch, "lodesman", sim(scenario, scratch.file("run"), {"--time-limit", "10"})};
   CHECK(run.process().status() == 1);
-  CHECK(run.said().find("console") == std::string::npos);
+  CHECK(run.said().find("lodesman-console") == std::string::npos);
+  CHECK(run.said().find("http:") == std::string::npos);
 }
 
 TEST_CASE("console: it waits for a boat, and ends as it is told", "[system]") {
