@@ -9,9 +9,10 @@ namespace lodesman::console {
 
 BoardFeed::BoardFeed(std::string segment, TopicTable& topics)
     : segment_{std::move(segment)}, topics_{topics}, viewers_{topics} {
-  for (std::uint16_t i = 0; i < topics_.size(); ++i) {
-    if (topics_[i].name == "/sonar") {
-      sonar_topic_ = i;
+  for (std::size_t i = 0; i < topics_.size(); ++i) {
+    const auto topic = static_cast<std::uint16_t>(i);
+    if (topics_[topic].name == "/sonar") {
+      sonar_topic_ = topic;
     }
   }
   const auto channels = raw_channels();

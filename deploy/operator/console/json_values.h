@@ -21,7 +21,8 @@ using viewer::Json;
 // To a thousandth; null where it is no number, or without end.
 [[nodiscard]] inline Json value_of(double number) {
   constexpr double kMost = 1e12;
-  return std::abs(number) < kMost ? Json(std::round(number * 1000.0) / 1000.0) : Json(nullptr);
+  return std::abs(number) < kMost ? Json(std::round(number * 1000.0) / 1000.0 + 0.0)
+                                  : Json(nullptr);
 }
 [[nodiscard]] inline Json value_of(const std::optional<Duration>& age) {
   return age ? value_of(to_seconds(*age)) : Json(nullptr);
