@@ -12,7 +12,7 @@ constexpr double kMostBehind_m = 8.0;
 constexpr double kLeastShare = 0.06;
 constexpr double kMostShare = 0.22;
 constexpr std::uint32_t kLeastPings = 2;
-constexpr std::uint32_t kMostPings = 9;
+constexpr std::uint32_t kMostGhostPings = 9;
 constexpr double kFlicker = 0.6;         // of the pings in which it is heard
 constexpr double kHalfDepth_m = 0.35;    // nominal, of its echo
 constexpr double kLeastHalfBeams = 1.2;  // a patch that is no single cell
@@ -91,7 +91,7 @@ void Ghosts::begin_some(const HeardScene& scene, const SurfaceEchoes& surfaces,
     ghost.body = body.id;
     ghost.share = uniform_between(chance, kLeastShare, kMostShare);
     ghost.behind_nominal_m = uniform_between(chance, kLeastBehind_m, kMostBehind_m);
-    ghost.pings_left = pings_between(chance, kLeastPings, kMostPings);
+    ghost.pings_left = pings_between(chance, kLeastPings, kMostGhostPings);
     if (chance.uniform() < kind_.second_echoes) {
       ghosts_.begin(ghost);
     }

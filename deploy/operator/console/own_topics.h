@@ -35,6 +35,7 @@ class OwnTopics {
             const Clients& clients, std::unique_ptr<CommandPort> status);
   OwnTopics(const OwnTopics&) = delete;
   OwnTopics& operator=(const OwnTopics&) = delete;
+  ~OwnTopics() = default;
 
   // After the feed has looked.
   void step(Time now);
