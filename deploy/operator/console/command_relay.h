@@ -29,6 +29,8 @@ class CommandRelay final : public CommandPort {
 
   // `context` must outlive it.
   CommandRelay(boost::asio::io_context& context, const RelayOptions& options, TokenOf token);
+  CommandRelay(const CommandRelay&) = delete;
+  CommandRelay& operator=(const CommandRelay&) = delete;
   ~CommandRelay() override;
 
   void ask(const std::string& request, Done done) override;
