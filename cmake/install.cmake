@@ -10,8 +10,7 @@ endif()
 install(TARGETS lodesman-bench lodesman-devices RUNTIME COMPONENT bench)
 install(DIRECTORY deploy/config deploy/pictures deploy/viewer DESTINATION ${share}/deploy
         COMPONENT runtime PATTERN boat.toml EXCLUDE)
-install(DIRECTORY deploy/operator/console/page/ DESTINATION ${share}/console COMPONENT runtime
-        OPTIONAL PATTERN "*.md" EXCLUDE PATTERN "test*" EXCLUDE)
+install(DIRECTORY deploy/operator/console/page/ DESTINATION ${share}/console COMPONENT runtime)
 install(DIRECTORY hal_sim/scenarios hal_sim/vessels DESTINATION ${share}/hal_sim COMPONENT runtime)
 install(DIRECTORY docs/ TYPE DOC COMPONENT doc)
 install(FILES README.md TYPE DOC COMPONENT doc)

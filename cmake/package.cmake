@@ -46,7 +46,7 @@ set(CPACK_DEBIAN_BENCH_DEBUGINFO_PACKAGE ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME lodesman)
 set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "obstacle avoidance for an autonomous surface vehicle
 Sees underwater obstacles with a forward-looking sonar and steers round
-them, in real time: two services for the boat's computer, and the
+them, in real time: services for the boat's computer, and the
 operator's command.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "systemd | systemd-standalone-sysusers, passwd")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "libjs-dygraphs")

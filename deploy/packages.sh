@@ -21,7 +21,7 @@ booted_packages="iproute2 lintian mmdebstrap systemd-container"
 # For tests/system/booted_vm.sh, which boots it in a virtual machine.
 vm_packages="e2fsprogs iproute2 mmdebstrap openssh-client qemu-system-x86 qemu-utils socat"
 # For tests/system/recorder.cpp, which reads recordings with npm's packages too, where
-# tests/system/mcap/install.sh has installed them.
+# tests/support/install_node_packages.sh has installed them.
 recording_packages="nodejs npm"
 # For tests/console/page.mjs: a browser for the page.
 page_packages="chromium"

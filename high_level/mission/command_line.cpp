@@ -9,22 +9,6 @@ namespace {
 
 constexpr std::size_t kMaxName = 64;
 
-// The same time for every wrong token, whatever it has right.
-[[nodiscard]] bool same_token(const std::string& a, const std::string& b) noexcept {
-  unsigned difference = a.size() == b.size() && !b.empty() ? 0U : 1U;
-  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
-    difference |= static_cast<unsigned>(a[i] ^ b[i]);
-  }
-  return difference == 0U;
-}
-
-[[nodiscard]] Scope scope_of(const std::string& shown, const CommandTokens& tokens) noexcept {
-  const bool view = same_token(shown, tokens.view);
-  const bool abort = same_token(shown, tokens.abort);
-  const bool command = same_token(shown, tokens.command);
-  return command ? Scope::kCommand : abort ? Scope::kAbort : view ? Scope::kView : Scope::kNone;
-}
-
 [[nodiscard]] std::optional<std::string> text_of(const nlohmann::json& line, const char* key) {
   const auto found = line.find(key);
   return found != line.end() && found->is_string() ? std::optional{found->get<std::string>()}
@@ -82,6 +66,21 @@ constexpr std::size_t kMaxName = 64;
 }
 
 }  // namespace
+
+bool same_token(const std::string& shown, const std::string& token) noexcept {
+  unsigned difference = shown.size() == token.size() && !token.empty() ? 0U : 1U;
+  for (std::size_t i = 0; i < shown.size() && i < token.size(); ++i) {
+    difference |= static_cast<unsigned>(shown[i] ^ token[i]);
+  }
+  return difference == 0U;
+}
+
+Scope scope_of(const std::string& shown, const CommandTokens& tokens) noexcept {
+  const bool view = same_token(shown, tokens.view);
+  const bool abort = same_token(shown, tokens.abort);
+  const bool command = same_token(shown, tokens.command);
+  return command ? Scope::kCommand : abort ? Scope::kAbort : view ? Scope::kView : Scope::kNone;
+}
 
 CommandLine read_command_line(const std::string& text, const CommandTokens& tokens) {
   const auto line = nlohmann::json::parse(text, nullptr, false);

@@ -23,6 +23,11 @@ struct CommandTokens {
   std::string view;
 };
 
+// Whether a token is that one, in the same time for every wrong one, whatever it has right.
+[[nodiscard]] bool same_token(const std::string& shown, const std::string& token) noexcept;
+// What the token shown is good for; kNone where it is none of these.
+[[nodiscard]] Scope scope_of(const std::string& shown, const CommandTokens& tokens) noexcept;
+
 struct CommandRequest {
   std::string command;                 // the word
   Scope scope = Scope::kNone;          // of the token shown

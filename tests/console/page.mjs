@@ -4,7 +4,7 @@
 // first thing that is not as it must be, an error of the page or a request off this machine.
 //   node page.mjs PACKAGES --bin DIR [--console FILE] [--page DIR] [--scenario NAME] [--shots DIR] [--seconds 60]
 //   node page.mjs PACKAGES --url URL --token TOKEN [--pid N] [--shots DIR] [--seconds 60]
-// PACKAGES: where install.sh has put what it needs. DIR of --bin: the boat's programs. --pid: of the
+// PACKAGES: where install_node_packages.sh has put what it needs. DIR of --bin: the boat's programs. --pid: of the
 // console, which is stopped and let go again; without it that step is left out. --hz: how many messages of
 // the boat a second have to come in that minute, which sends 10; 2 without it, for a busy machine.
 import assert from "node:assert/strict";

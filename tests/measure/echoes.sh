@@ -15,10 +15,10 @@ scenes=${2:-beams sea}
 shift $(($# < 2 ? $# : 2))
 # Stones at its sides from the first moment, nearer than a sonar hears, and others behind it that it never saw.
 beams_not_reached=" start-in-four-zones "
-# Second echoes lie on the goal, for who sees it over a wall; and stretches of a wall that send next to nothing
+# What is heard behind a wall is taken for solid, and the goal lies in it; and stretches of a wall that send little
 # back are taken for gaps.
 sea_not_reached="$beams_not_reached paper-local-minimum wide-wall "
-# Returns without any error close the ring that the goal lies in.
+# More than half of its plans find no way into the ring.
 detections_not_reached="$beams_not_reached ring-opens "
 
 # choose <scene>: what it is called, and the options of its runs.

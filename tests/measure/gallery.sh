@@ -4,9 +4,9 @@
 # drawn over its echoes, and the sonar views of simulated runs. Fails where a set cannot be read, a frame
 # has no picture, or an obstacle found no room.
 #   tests/measure/gallery.sh [FRAMES [DIRECTORY]]
-# FRAMES: of each set at most so many, and of the simulated runs at most twice as many seconds. DIRECTORY: for the pictures, one below it for each set; without it they
-# are looked at and thrown away. The frames' owners allow few of them to be shown (docs/gallery.md says which):
-# keep DIRECTORY out of what you publish.
+# FRAMES: of each set at most so many, and of the simulated runs at most twice as many seconds. DIRECTORY: for
+# the pictures, one below it for each set; without it they are looked at and thrown away. The frames'
+# owners allow few of them to be shown (docs/gallery.md says which): keep DIRECTORY out of what you publish.
 # LODESMAN_BUILD: the build to measure. LODESMAN_DATA_DIR: where the frames lie. Where they do not, this says so
 # and draws the simulated ones alone, and with CI=true fails.
 set -eu
@@ -89,9 +89,7 @@ view sim-paper-static paper-static
 view sim-tank-moving tank-moving
 view sim-twenty-movers twenty-movers
 for noise in tank sea; do
-  { cat "$here/../../hal_sim/scenarios/wide-wall.toml" && printf '\n[sonar]\nnoise = "%s"\n' "$noise"; } \
-    >"$place/wide-wall-$noise.toml"
-  view "sim-wide-wall-$noise" "$place/wide-wall-$noise.toml"
+  view "sim-wide-wall-$noise" wide-wall --set "simulation.noise=$noise"
 done
 [ "$out" = "$place/gallery" ] || echo "pictures: $out" >&2
 exit $failed

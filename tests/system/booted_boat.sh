@@ -264,6 +264,7 @@ judge_console() {
       exec 3<>/dev/tcp/127.0.0.1/8765
       printf "GET /session HTTP/1.1\r\nHost: %s\r\nConnection: close\r\n\r\n" "$host" >&3
       cat <&3
+      echo
     done')
   grep -q '"scope":null' <<<"$said" || fail "the console does not answer: $said"
   grep -q "^HTTP/1.1 421" <<<"$said" || fail "the console answers by any name: $said"

@@ -13,7 +13,7 @@
 #include <sstream>
 
 #include "tests/support/catch.h"
-#include "tests/support/data_dir.h"
+#include "tests/support/node_packages.h"
 #include "tests/support/raw_viewer.h"
 #include "tests/system/program.h"
 
@@ -110,17 +110,6 @@ class ShownRun {
   Heard run_;
 };
 
-constexpr const char* kClientIsAbsent =
-    "no @foxglove/ws-protocol is installed (tests/system/foxglove/install.sh)";
-
-[[nodiscard]] bool client_is_here() {
-  const bool here = fs::exists(fs::path{LODESMAN_FOXGLOVE_PACKAGES} / "node_modules" / "@foxglove");
-  if (!here && data_is_required() && std::getenv("LODESMAN_WITHOUT_NPM") == nullptr) {
-    FAIL("CI=true, and " << kClientIsAbsent);
-  }
-  return here;
-}
-
 [[nodiscard]] json seen_by_client(std::uint16_t port, const std::string& token) {
   const std::string command = "node '" LODESMAN_FOXGLOVE_LOOK "' '" LODESMAN_FOXGLOVE_PACKAGES
                               "' " +
@@ -168,8 +157,7 @@ TEST_CASE("console: a run says where it is, is seen and commanded there", "[syst
 }
 
 TEST_CASE("console: the protocol's own client sees the topics, and is answered", "[system]") {
-  if (!client_is_here()) {
-    std::cout << "skipped: " << kClientIsAbsent << "\n";
+  if (is_skipped_without(LODESMAN_FOXGLOVE_PACKAGES, "@foxglove/ws-protocol")) {
     return;
   }
   const Scratch scratch{"console-client"};

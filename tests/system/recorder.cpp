@@ -13,7 +13,7 @@
 #include <random>
 
 #include "tests/support/catch.h"
-#include "tests/support/data_dir.h"
+#include "tests/support/node_packages.h"
 #include "tests/system/program.h"
 #include "tests/system/recording_contents.h"
 
@@ -70,18 +70,7 @@ struct Recorder {
   std::optional<Program> program;
 };
 
-constexpr const char* kMakersAreAbsent =
-    "no @mcap/core is installed (tests/system/mcap/install.sh)";
-
-// Whether the makers' own library is installed; with CI=true it has to be, unless .ci/run has said
-// that npm's registry is not to be reached.
-[[nodiscard]] bool makers_are_here() {
-  const bool here = fs::exists(fs::path{LODESMAN_MCAP_PACKAGES} / "node_modules" / "@mcap");
-  if (!here && data_is_required() && std::getenv("LODESMAN_WITHOUT_NPM") == nullptr) {
-    FAIL("CI=true, and " << kMakersAreAbsent);
-  }
-  return here;
-}
+constexpr const char* kMakersReader = "@mcap/core";
 
 // What it says of files.
 [[nodiscard]] json read_by_makers(const std::vector<fs::path>& files) {
@@ -190,7 +179,7 @@ TEST_CASE("recorder: killed at random times every file can be read, and is close
     CHECK(after.attachments == before.attachments);
     parts.push_back(recorder.part);
   }
-  if (!makers_are_here()) {
+  if (!has_node_package(LODESMAN_MCAP_PACKAGES, kMakersReader)) {
     return;
   }
   const json said = read_by_makers(parts);
@@ -296,8 +285,7 @@ TEST_CASE("recorder: without a boat it ends with not yet, and without a place to
 
 TEST_CASE("recorder: the makers' own reader reads all of it with every CRC, cut off or whole",
           "[system]") {
-  if (!makers_are_here()) {
-    std::cout << "skipped: " << kMakersAreAbsent << "\n";
+  if (is_skipped_without(LODESMAN_MCAP_PACKAGES, kMakersReader)) {
     return;
   }
   const Scratch scratch{"recorder"};

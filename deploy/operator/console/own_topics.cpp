@@ -116,8 +116,7 @@ void OwnTopics::step_world(Time now) {
       mission.mission,
       static_cast<std::uint64_t>(mission.started.time_since_epoch().count()),
       mission.goal_index,
-      mission.keeps_line ? 1U : 0U,
-      1};
+      mission.keeps_line ? 1U : 0U};
   if (made_of != world_.shown && is_due(world_, now)) {
     world_.shown = std::move(made_of);
     topics_.publish(world_.topic, "", now, text_of(world_json(picture, options_.hull)));

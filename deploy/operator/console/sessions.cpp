@@ -9,11 +9,6 @@ namespace {
 constexpr std::size_t kTicketDigits = 32;
 constexpr Duration kFirstWait = std::chrono::seconds{1};
 
-[[nodiscard]] bool same_text(const std::string& one, const std::string& other) {
-  const Digest key = random_digest();
-  return same_digest(message_code(key, one), message_code(key, other));
-}
-
 }  // namespace
 
 bool Sessions::may_look(Time now) {
@@ -25,7 +20,7 @@ bool Sessions::may_look(Time now) {
 }
 
 Scope Sessions::take_one_time_token(const std::string& token) {
-  if (!one_time_ || !same_text(token, *one_time_)) {
+  if (!one_time_ || !same_token(token, *one_time_)) {
     return Scope::kNone;
   }
   one_time_.reset();
@@ -107,7 +102,7 @@ std::string Sessions::make_ticket() {
 bool Sessions::is_ticket(const std::string& ticket) const {
   bool known = false;
   for (const std::string& made : tickets_) {
-    known = same_text(ticket, made) || known;
+    known = same_token(ticket, made) || known;
   }
   return known;
 }

@@ -130,8 +130,9 @@ namespace {
 
 // What goes before all that is planned.
 [[nodiscard]] std::string by_thrust(const BoardPicture& picture) {
-  if (picture.guard != nullptr && (picture.guard->value.state == GuardState::kBraking ||
-                                   picture.guard->value.state == GuardState::kHolding)) {
+  if (is_fresh(picture.guard, picture.now, max_age::kGuardStatus) &&
+      (picture.guard->value.state == GuardState::kBraking ||
+       picture.guard->value.state == GuardState::kHolding)) {
     return "The guard keeps it from going on: " +
            std::string{picture.guard->value.reason == GuardReason::kSilence
                            ? "nobody steered."
@@ -150,14 +151,31 @@ namespace {
   return "";
 }
 
+// Dead, or frozen with what it said last still on the board.
+template <class T>
+[[nodiscard]] bool is_silent(bool alive, const Stamped<T>* said, Time now, Duration max_age) {
+  return !alive || (said != nullptr && !is_fresh(said, now, max_age));
+}
+
 }  // namespace
 
 std::string what_it_does(const BoardPicture& picture, const std::string& absence) {
   if (!absence.empty()) {
     return "There is no boat.";
   }
-  if (!picture.low_alive && !picture.high_alive) {
-    return "Neither of the boat's programs runs; this is what they said last. " +
+  const bool low_silent =
+      is_silent(picture.low_alive, picture.thrust, picture.now, max_age::kThrustApplied);
+  const bool high_silent =
+      is_silent(picture.high_alive, picture.mission, picture.now, max_age::kMissionStatus);
+  if (low_silent && high_silent) {
+    return "Neither of the boat's programs is heard. What was said last: " + by_mission(picture);
+  }
+  if (low_silent) {
+    return "Nothing drives its thrusters, as lodesman-low is not heard. What was said last: " +
+           by_mission(picture);
+  }
+  if (high_silent) {
+    return "Nobody steers, as lodesman-high is not heard. What was said last: " +
            by_mission(picture);
   }
   return by_thrust(picture) + by_mission(picture);

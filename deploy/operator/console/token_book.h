@@ -11,9 +11,6 @@
 
 namespace lodesman::console {
 
-// Of two sets of tokens the scope of the one that `token` is, compared in constant time.
-[[nodiscard]] Scope scope_among(const std::string& token, const CommandTokens& tokens);
-
 class TokenBook {
  public:
   // `port`: of the command socket. `lasting`: a file; empty where there is none.

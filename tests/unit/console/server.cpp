@@ -124,7 +124,7 @@ TEST_CASE("console server: a header that comes slowly, or never, ends its connec
   CHECK(after.ask("GET", "/").status == 200);
 }
 
-TEST_CASE("console server: a thousand bad requests order nothing and crash nothing", "[console]") {
+TEST_CASE("console server: a thousand bad requests crash nothing", "[console]") {
   const ServedConsole console;
   std::mt19937 chance{11};  // NOLINT: the same each time
   const std::string good =

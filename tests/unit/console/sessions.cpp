@@ -116,8 +116,8 @@ TEST_CASE("console sessions: a ticket is good until others have taken its place"
 
 TEST_CASE("token book: a token has the scope of its line, an empty line is nobody's", "[console]") {
   const CommandTokens tokens{std::string(64, 'a'), std::string(64, 'b'), ""};
-  CHECK(scope_among(std::string(64, 'a'), tokens) == Scope::kCommand);
-  CHECK(scope_among(std::string(64, 'b'), tokens) == Scope::kAbort);
-  CHECK(scope_among("", tokens) == Scope::kNone);
-  CHECK(scope_among(std::string(63, 'a'), tokens) == Scope::kNone);
+  CHECK(scope_of(std::string(64, 'a'), tokens) == Scope::kCommand);
+  CHECK(scope_of(std::string(64, 'b'), tokens) == Scope::kAbort);
+  CHECK(scope_of("", tokens) == Scope::kNone);
+  CHECK(scope_of(std::string(63, 'a'), tokens) == Scope::kNone);
 }

@@ -157,6 +157,24 @@ TEST_CASE("console story: it says what the boat makes for, and what stops it", "
   CHECK(what_it_does({}, "gone") == "There is no boat.");
 }
 
+TEST_CASE("console story: what a program said last is not what the boat does", "[console]") {
+  SmallBoard boat;
+  const std::string last = "What was said last: Sails to waypoint 1 of 2, 5 m away.";
+  BoardPicture picture = boat.look();
+  picture.low_alive = false;
+  CHECK(what_it_does(picture, "") ==
+        "Nothing drives its thrusters, as lodesman-low is not heard. " + last);
+  picture.low_alive = true;
+  picture.high_alive = false;
+  CHECK(what_it_does(picture, "") == "Nobody steers, as lodesman-high is not heard. " + last);
+  // Alive and frozen.
+  CHECK(what_it_does(boat.look(SmallBoard::kNow + seconds{2}), "") ==
+        "Neither of the boat's programs is heard. " + last);
+  boat.thrust.publish({}, SmallBoard::kNow + seconds{2});
+  CHECK(what_it_does(boat.look(SmallBoard::kNow + seconds{2}), "")
+            .starts_with("Nobody steers, as lodesman-high is not heard."));
+}
+
 TEST_CASE("console story: an alarm is as grave as the mode needs what is missing", "[console]") {
   SmallBoard boat;
   const auto gravest = [&](Time now) {

@@ -178,8 +178,55 @@ TEST_CASE("console viewers: frames that are wrong or too long end their connecti
   CHECK(console.told_but_status() == 0);
 }
 
+TEST_CASE("console viewers: whoever may not order, or orders in a wrong way, orders nothing",
+          "[console]") {
+  const ServedConsole console;
+  const std::string commander = console.signed_in(console.tokens.command);
+  const std::string looker = console.signed_in(console.tokens.view);
+  const std::string right = R"({"command":"abort"})";
+  const std::string forged = "Cookie: lodesman_console=" + std::string(64, '7') + "\r\n";
+  // Each way is tried with the order that everybody with a token to abort may give.
+  const std::pair<std::string, std::string> not_let_in[] = {
+      {"/", ""},
+      {"/", forged},
+      {"/", commander + "Origin: http://evil.example\r\n"},
+      {"/view/" + std::string(32, '7'), commander},
+      {"/other", commander}};
+  const std::string no_orders[] = {
+      R"({"command":7})", R"({"command":["abort"]})", R"({"Command":"abort"})", R"(["abort"])",
+      R"("abort")",       R"({"command":"abort")",    std::string(5000, '['),   ""};
+  constexpr int kRounds = 67;  // a thousand and five in all
+  for (int round = 0; round < kRounds; ++round) {
+    for (const auto& [target, headers] : not_let_in) {
+      RawViewer viewer{console.port()};
+      CHECK(viewer.upgrade(target, headers).status >= 400);
+      viewer.call(1, right);
+    }
+    RawViewer renamed{console.port()};
+    renamed.host = "evil.example";
+    CHECK(renamed.upgrade("/", commander).status == 421);
+    renamed.call(1, right);
+    RawViewer viewer{console.port()};
+    REQUIRE(viewer.upgrade("/", round % 2 == 0 ? commander : looker).status == 101);
+    for (const std::string& wrong : no_orders) {
+      viewer.call(2, wrong);
+    }
+  }
+  RawViewer looks{console.port()};
+  REQUIRE(looks.upgrade("/", looker).status == 101);
+  looks.call(3, right);
+  CHECK(reply_in(looks.hear_with("json{"))["ok"] == false);
+  CHECK(console.told_but_status() == 0);
+  RawViewer orders{console.port()};
+  REQUIRE(orders.upgrade("/", commander).status == 101);
+  orders.call(4, right);
+  CHECK(reply_in(orders.hear_with("json{"))["ok"] == true);
+  CHECK(console.told("abort") == 1);
+}
+
 TEST_CASE("console viewers: five that take nothing delay none of fifteen that do", "[console]") {
-  const ServedConsole console{seconds{1}};
+  constexpr seconds kStall{5};
+  const ServedConsole console{kStall};
   auto board = SharedBlackboard::create(console.segment());
   Writer<SonarPing> pings = writer_of(board.writable(), board.writable().sonar_ping, Role::kLow);
   const std::string cookie = console.signed_in(console.tokens.view);
@@ -201,19 +248,22 @@ TEST_CASE("console viewers: five that take nothing delay none of fifteen that do
   ping->range_m = 20.0;
   ping->make_image(120, 500, 2.0);
   std::mt19937 chance{5};  // NOLINT: noise takes room
-  // Until each has had what a second brings, by the boat's own time, and none lacks any of it.
-  constexpr int kWanted = 30;
-  std::vector<double> first(others.size());
+  constexpr int kWanted = 60;
+  std::vector<double> last_s(others.size(), to_seconds(SteadyClock{}.now().time_since_epoch()));
+  double longest_gap_s = 0.0;
   for (int n = 0; n < kWanted; ++n) {
     for (std::size_t i = 0; i < 4096; ++i) {
       ping->echo[chance() % ping->echo_count] = static_cast<std::uint8_t>(chance());
     }
     pings.publish(*ping, SteadyClock{}.now());
     for (std::size_t i = 0; i < others.size(); ++i) {
-      const Text boat = message_in(others[i].hear_with("ages_s"));
-      first[i] = n == 0 ? boat["time_s"].get<double>() : first[i];
+      const double at_s = message_in(others[i].hear_with("ages_s"))["time_s"].get<double>();
+      longest_gap_s = std::max(longest_gap_s, at_s - last_s[i]);
+      last_s[i] = at_s;
     }
   }
+  // Who waited for one that takes nothing would have waited until that one is closed.
+  CHECK(longest_gap_s < to_seconds(kStall));
   for (RawViewer& viewer : stalled) {
     CHECK(viewer.is_ended());
   }
