@@ -59,15 +59,36 @@ void add_mission(Json& world, const BoardPicture& picture) {
   }
 }
 
-// What the newest request for a path has round it.
+// Of points in the vehicle frame.
+[[nodiscard]] Json in_world(const VehicleState& state, std::vector<Vertex> points) {
+  const VehiclePose pose{WorldPoint{{state.x_m, state.y_m}},
+                         Heading::clockwise_from_y_rad(state.heading_rad)};
+  for (Vertex& point : points) {
+    const WorldPoint there = pose.to_world(VehiclePoint{{point.x_m, point.y_m}});
+    point = {there.xy_m.x(), there.xy_m.y()};
+  }
+  return points_of(points);
+}
+
+// What the newest request for a path has round it; where paths are found in the sonar view, what
+// the frame has that they are found in.
 [[nodiscard]] Json zone_round(const BoardPicture& picture, std::uint32_t id) {
-  if (picture.request == nullptr || picture.request->value.space != PathSpace::kWorld) {
+  if (picture.request == nullptr || id == 0) {
     return nullptr;
   }
   const PathRequest& request = picture.request->value;
-  for (std::uint32_t i = 0; i < request.zone_count; ++i) {
-    if (request.zones[i].shape.id == id && id != 0) {
-      return points_of(zone_of(request.zones[i].shape));
+  if (request.space == PathSpace::kWorld) {
+    for (std::uint32_t i = 0; i < request.zone_count; ++i) {
+      if (request.zones[i].shape.id == id) {
+        return points_of(zone_of(request.zones[i].shape));
+      }
+    }
+  } else if (picture.obstacles != nullptr && picture.state != nullptr) {
+    const SonarObstacles& seen = picture.obstacles->value;
+    for (std::uint32_t i = 0; i < seen.count; ++i) {
+      if (seen.obstacles[i].id == id) {
+        return in_world(picture.state->value, zone_of(seen.obstacles[i]));
+      }
     }
   }
   return nullptr;
@@ -112,18 +133,9 @@ void add_mission(Json& world, const BoardPicture& picture) {
 // Of a frame in the vehicle's frame, where nothing is tracked.
 [[nodiscard]] Json obstacle_of(const BoardPicture& picture, const Obstacle& seen) {
   const VehicleState& state = picture.state->value;
-  const VehiclePose pose{WorldPoint{{state.x_m, state.y_m}},
-                         Heading::clockwise_from_y_rad(state.heading_rad)};
-  const auto in_world = [&](std::vector<Vertex> points) {
-    for (Vertex& point : points) {
-      const WorldPoint there = pose.to_world(VehiclePoint{{point.x_m, point.y_m}});
-      point = {there.xy_m.x(), there.xy_m.y()};
-    }
-    return points_of(points);
-  };
   return {{"id", seen.id},
-          {"outline_m", in_world(outline_of(seen))},
-          {"zone_m", in_world(zone_of(seen))},
+          {"outline_m", in_world(state, outline_of(seen))},
+          {"zone_m", in_world(state, zone_of(seen))},
           {"moving", false},
           {"velocity_m_s", nullptr},
           {"sigma_m", nullptr},

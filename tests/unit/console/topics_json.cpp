@@ -100,6 +100,31 @@ TEST_CASE("console json: the world has mission, areas, plans and what moves", "[
   CHECK(obstacle["predicted_m"][1] == Json::array({16.0, 15.0}));  // in 10 s
 }
 
+TEST_CASE("console json: where paths are found in the sonar view, zones are the frame's",
+          "[console]") {
+  SmallBoard boat;
+  auto asked = std::make_unique<PathRequest>();
+  asked->space = PathSpace::kSonarView;
+  boat.request.publish(*asked, SmallBoard::kNow);
+  CHECK(world_json(boat.look(), {})["obstacles"][0]["zone_m"].is_null());
+  auto frame = std::make_unique<SonarObstacles>();
+  frame->captured = SmallBoard::kNow;
+  frame->range_m = 20.0;
+  frame->count = 1;
+  Obstacle& seen = frame->obstacles[0];
+  seen.id = 5;
+  seen.centre_y_m = 6.0;  // ahead, which is east
+  seen.semi_axis_first_m = seen.semi_axis_second_m = 1.0;
+  seen.protection_first_m = seen.protection_second_m = 2.0;
+  boat.sonar_obstacles.publish(*frame, SmallBoard::kNow);
+  const Json zone = world_json(boat.look(), {})["obstacles"][0]["zone_m"];
+  REQUIRE(zone.size() == 24);
+  for (const Json& point : zone) {
+    CHECK(std::hypot(point[0].get<double>() - 16.0, point[1].get<double>() - 20.0) ==
+          Approx(2.0).margin(0.01));
+  }
+}
+
 TEST_CASE("console json: the same plan again is not the plan before", "[console]") {
   SmallBoard boat;
   static_cast<void>(boat.look());
